@@ -33,6 +33,7 @@ void mor_tree_clear(mor_context *context, mor_tree *tree)
 /* Where a coordinate of the point named at a place of the order is found. */
 typedef struct view {
     const double *points;
+    const int64_t *numbers; /* by which equal coordinates are told apart; NULL: by place */
     int stride;
     int axis;
 } view;
@@ -41,7 +42,7 @@ static int is_before(const view *v, int32_t a, int32_t b)
 {
     const double x = v->points[(int64_t)a * v->stride + v->axis];
     const double y = v->points[(int64_t)b * v->stride + v->axis];
-    return x < y || (x == y && a < b);
+    return x < y || (x == y && (v->numbers != NULL ? v->numbers[a] < v->numbers[b] : a < b));
 }
 
 static void swap_places(int32_t *order, int64_t a, int64_t b)
@@ -115,33 +116,70 @@ static int longest_axis(const double *points, int stride, const int32_t *order, 
     return axis;
 }
 
-void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order)
+/* Splits what has more clusters than a block, beginning with the order that is given. */
+static void split(const mor_tree_points *it, int64_t block_clusters, int32_t *order)
 {
-    for (int64_t place = 0; place < n_points; ++place) {
-        order[place] = (int32_t)place;
-    }
     struct {
         int64_t begin, end;
     } stack[STACK];
     int depth = 0;
     stack[depth].begin = 0;
-    stack[depth++].end = (n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    stack[depth++].end = (it->n_points + MOR_CLUSTER - 1) / MOR_CLUSTER;
     while (depth > 0) {
         --depth;
         const int64_t begin = stack[depth].begin;
         const int64_t end = stack[depth].end;
-        if (end - begin < 2) {
+        if (end - begin <= block_clusters) {
             continue;
         }
         const int64_t middle = begin + mor_tree_left(end - begin);
-        const int64_t last = end * MOR_CLUSTER < n_points ? end * MOR_CLUSTER : n_points;
-        const view v = {points, stride, longest_axis(points, stride, order, begin * MOR_CLUSTER, last)};
+        const int64_t last = end * MOR_CLUSTER < it->n_points ? end * MOR_CLUSTER : it->n_points;
+        const view v = {it->points, it->numbers, it->stride,
+                        longest_axis(it->points, it->stride, order, begin * MOR_CLUSTER, last)};
         select_nth(&v, order, begin * MOR_CLUSTER, last - 1, middle * MOR_CLUSTER);
         stack[depth].begin = begin;
         stack[depth++].end = middle;
         stack[depth].begin = middle;
         stack[depth++].end = end;
     }
+}
+
+static void start_order(int64_t n_points, int32_t *order)
+{
+    for (int64_t place = 0; place < n_points; ++place) {
+        order[place] = (int32_t)place;
+    }
+}
+
+void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order)
+{
+    const mor_tree_points all = {points, NULL, stride, n_points};
+    start_order(n_points, order);
+    split(&all, 1, order);
+}
+
+void mor_tree_order_blocks(const mor_tree_points *points, int64_t block_clusters, int32_t *order)
+{
+    start_order(points->n_points, order);
+    split(points, block_clusters, order);
+}
+
+void mor_tree_order_block(const mor_tree_points *points, int32_t *order)
+{
+    start_order(points->n_points, order);
+    split(points, 1, order);
+}
+
+int64_t mor_tree_block_end(int64_t n_clusters, int64_t block_clusters, int64_t begin)
+{
+    int64_t first = 0;
+    int64_t end = n_clusters;
+    while (end - first > block_clusters) {
+        const int64_t middle = first + mor_tree_left(end - first);
+        first = begin < middle ? first : middle;
+        end = begin < middle ? middle : end;
+    }
+    return end;
 }
 
 static void fit_cluster(const mor_tree *tree, const double *points, int stride, int64_t cluster, double *box)

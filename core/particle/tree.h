@@ -46,6 +46,33 @@ void mor_tree_clear(mor_context *context, mor_tree *tree);
  *  Cost: O(n log n), allocates nothing. */
 void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t *order);
 
+/** Points to be ordered. Everything is borrowed. */
+typedef struct mor_tree_points {
+    const double *points;   /* shape [n_points, stride]; the first three numbers of a record are x, y, z; unit m */
+    const int64_t *numbers; /* shape [n_points]; by which equal coordinates are told apart; NULL: by place */
+    int stride;             /* doubles per record, >= 3 */
+    int64_t n_points;
+} mor_tree_points;
+
+/** Finds the order of mor_tree_order as far as blocks: which points belong to each block of clusters that follow one
+ *  another. Within a block they are left in the order that mor_tree_order has there before it divides the block.
+ *  @param block_clusters [in]   clusters of the largest block, >= 1
+ *  @param order          [out]  shape [n_points]; the point that belongs at each place
+ *  Cost: O(n log(n / block)), allocates nothing. */
+void mor_tree_order_blocks(const mor_tree_points *points, int64_t block_clusters, int32_t *order);
+
+/** Orders one block as mor_tree_order orders all points.
+ *  @param points [in]   those of the block as mor_tree_order_blocks left them, with numbers that ascend with the place
+ *                       each had there
+ *  @param order  [out]  shape [n_points]; the point that belongs at each place */
+void mor_tree_order_block(const mor_tree_points *points, int32_t *order);
+
+/** Returns where a block ends, one past its last cluster.
+ *  @param n_clusters     [in]  of all points
+ *  @param block_clusters [in]  as given to mor_tree_order_blocks
+ *  @param begin          [in]  first cluster of the block: 0, or where another block ends */
+int64_t mor_tree_block_end(int64_t n_clusters, int64_t block_clusters, int64_t begin);
+
 /** Fits the boxes to the points, which must lie in tree order.
  *  @param points [in]      shape [n_points, stride]; unit m
  *  @param stride [in]      doubles per record, >= 3 */

@@ -68,6 +68,12 @@ static bool has_audit(const void *owner)
     return ((const mor_soil *)owner)->energy != NULL;
 }
 
+/* What soil that is not released keeps, beside its state. */
+#define STANDING                                                                                                       \
+    (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
+     BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(QUIET) |           \
+     BIT(QUIET_PLACE) | BIT(QUIET_SPAN))
+
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
      BIT(POSITION) | BIT(DENSITY) | SHARED(BOUNDARIES) | SHARED(BOUNDS),
@@ -75,6 +81,8 @@ static const mor_stage soil_stages[] = {
     {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), 0,
      SHARED(LISTS) | SHARED(ORDER) | SHARED(BOUNDS),
      "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
+    {"hold", mor_soil_hold, STANDING | SHARED(STATE), 0, SHARED(LISTS),
+     "finds the soil that is not released, when there is such", mor_soil_may_hold},
     {"sleep", mor_soil_sleep, BIT(POSITION) | BIT(MASS) | BIT(QUIET) | SHARED(BOUNDARIES), 0,
      BIT(VELOCITY) | BIT(DENSITY_RATE) | SHARED(LISTS),
      "decides which soil at rest is left out of this step, when switched on", mor_soil_may_sleep},
@@ -144,7 +152,9 @@ static const mor_stage soil_stages[] = {
      mor_soil_has_memory},
     {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | SHARED(LISTS), 0,
      BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN), "for how long each particle has been quiet, when soil may sleep",
-     mor_soil_may_sleep},
+     mor_soil_has_quiet},
+    {"stand", mor_soil_put_back, SHARED(LISTS), 0, STANDING | SHARED(STATE),
+     "puts soil back that is not released, where it was computed beside other soil", mor_soil_may_hold},
     {"energy of stress", mor_soil_audit_stress,
      SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
          BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
@@ -321,10 +331,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
     MOR_TRY(context, mor_soil_allocate_images(context, soil));
-    MOR_TRY(context, mor_soil_check_sleep(context, s));
-    if (s->scheme.sleep_after > 0.0) {
-        MOR_TRY(context, mor_sleep_init(context, &soil->sleep, n_particles));
-    }
+    MOR_TRY(context, mor_soil_init_sleep(context, soil, n_particles));
     MOR_TRY(context, mor_soil_allocate_fields(context, soil, padded));
     return mor_reduce_room_init(context, &soil->room, n_particles / MOR_SOIL_BATCH + 1, MOR_SOIL_BLOCK_VALUES);
 }
@@ -406,6 +413,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     mor_tree_clear(context, &soil->tree);
     mor_reduce_room_clear(context, &soil->room);
     mor_sleep_clear(context, &soil->sleep);
+    mor_hold_clear(context, &soil->hold);
     MOR_FREE(context, &soil->moving);
     MOR_FREE(context, &soil->density_sums);
     MOR_FREE(context, &soil->diffusion);
@@ -440,7 +448,17 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     MOR_TRY(context,
             mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
     soil->n_walls += 1;
-    return request->normals != NULL ? make_corners(context, soil) : MOR_OK;
+    return soil->walls[soil->n_walls - 1].normals != NULL ? make_corners(context, soil) : MOR_OK;
+}
+
+mor_status mor_soil_fill_walls(mor_context *context, mor_soil *soil)
+{
+    mor_tree_fit(&soil->tree, soil->set.data[MOR_FIELD_POSITION], 3);
+    for (int w = 0; w < soil->n_walls; ++w) {
+        MOR_TRY(context, mor_soil_contact_fill(context, &soil->walls[w], &soil->tree, mor_soil_reach(soil)));
+        mor_soil_contact_forget_start(context, &soil->walls[w]);
+    }
+    return MOR_OK;
 }
 
 mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_boundary *boundary, mor_wall_stress stress)

@@ -12,7 +12,7 @@
 #include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
 #include "core/sph/lanes/soil_lanes.h"
-#include "core/sph/sleep/sleep.h"
+#include "core/sph/sleep/hold.h"
 #include "core/sph/soil_energy.h"
 #include "core/time/stepper.h"
 
@@ -51,6 +51,9 @@ typedef struct mor_soil_settings {
     int n_kinds;
     int n_regions; /* parts that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
                       materials differ; of a composite the number of its parts; 0 or 1: one */
+    double
+        released[MOR_HOLD_REGIONS_MAX]; /* shape [regions]; time until which each stands as it was placed, s; 0: it is
+                                              released from the start */
 } mor_soil_settings;
 
 /** What has left the domain since the start. */
@@ -118,6 +121,8 @@ typedef struct mor_soil {
     double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;        /* of reductions over particles */
     mor_sleep sleep;             /* soil at rest that is left out of steps */
+    mor_hold hold;               /* soil that is not released */
+    bool is_settling;            /* the initial stress settles: all soil is released, whatever is to be held later */
     mor_sleep_box *moving;       /* shape [n_moving_room]; scratch, boxes of what moves beside it; NULL without */
     int n_moving_room;
     int32_t *order;          /* shape [n_particles]; scratch of the sort */
@@ -168,6 +173,11 @@ void mor_soil_clear(mor_context *context, mor_soil *soil);
 /** Adds a wall.
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
+
+/** Fills the walls that hold particles where soil is near alone, and forgets where all of them would be, as the lists
+ *  fill them later, when soil comes near. To be called when all is checked that asks for all particles of walls.
+ *  Returns: MOR_OK; as mor_soil_contact_fill. */
+mor_status mor_soil_fill_walls(mor_context *context, mor_soil *soil);
 
 /** Adds a boundary that is moved by another solver; core/particle/boundary.h says what is read and written when.
  *  @param boundary [in,out]  borrowed, outlives the soil's steps; its points are in place

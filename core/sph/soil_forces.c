@@ -6,6 +6,7 @@
 #include "core/base/eigen.h"
 #include "core/base/parallel.h"
 #include "core/material/checked.h"
+#include "core/sph/boundary/soil_wall.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -84,9 +85,14 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
     mor_soil *soil = owner;
     const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    const mor_relation_points points = {&soil->tree, records, MOR_RECORD_SIZE};
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         mor_view_compare(view, MOR_RESOURCE_LISTS, contact->relation.generation);
+        if (context->is_checked) {
+            MOR_TRY(context, mor_wall_blocks_check(context, contact, &points,
+                                                   MOR_KERNEL_SUPPORT * soil->smoothing_length, step->time));
+        }
         mor_soil_contact_sum(context, contact, soil->table, &soil->constants, records);
     }
     use_normals(context, soil);
@@ -194,6 +200,9 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     set_diffusion(context, soil, step, arrays.stress_diffusion);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
+    mor_hold_stop(&soil->hold, arrays.acceleration, 3);
+    mor_hold_stop(&soil->hold, arrays.stress_diffusion, 6);
+    mor_hold_stop(&soil->hold, arrays.hourglass_moment, 3);
     return MOR_OK;
 }
 
@@ -235,6 +244,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
     arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
     mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
+    mor_hold_stop(&soil->hold, arrays.hourglass_rate, 3);
     return MOR_OK;
 }
 
@@ -254,6 +264,8 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
         mor_soil_contact_update_velocity(context, contact, soil->table, &soil->constants, records);
         mor_soil_contact_sum_gradient(context, contact, records, soil->set.n_particles, gradient, rate);
     }
+    mor_hold_stop(&soil->hold, gradient, 9);
+    mor_hold_stop(&soil->hold, rate, 1);
     return MOR_OK;
 }
 

@@ -4,6 +4,7 @@
 #define MOR_CORE_SPH_SOIL_INTERNAL_H
 
 #include "core/base/math.h"
+#include "core/particle/kernel.h"
 #include "core/sph/soil.h"
 
 /** @file
@@ -34,6 +35,8 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
 mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 
+mor_status mor_soil_hold(mor_context *context, void *owner, mor_view *view, const mor_step *step);
+mor_status mor_soil_put_back(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step);
 mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view, const mor_step *step);
@@ -44,6 +47,17 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
 
 /** Whether soil at rest may be left out of steps. */
 bool mor_soil_may_sleep(const void *owner);
+
+/** Whether any soil is released later than at the start. */
+bool mor_soil_may_hold(const void *owner);
+
+/** Whether soil at rest falls asleep. */
+bool mor_soil_has_quiet(const void *owner);
+
+/** Makes what soil needs that is left out of steps.
+ *  @param n_particles [in]  number of particles, >= 1
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
+mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_particles);
 
 /** Checks that soil which begins to fall does not fall asleep before it moves.
  *  @param settings [in]  of the soil
@@ -60,10 +74,17 @@ mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil, c
  *  Returns: MOR_OK; as mor_state_add. */
 mor_status mor_soil_list_sleep(mor_context *context, mor_soil *soil, mor_state_list *list);
 
-/** Whether a particle is left out of the present step. */
+/** Whether a particle stands still in the present step. */
 static inline bool mor_soil_is_asleep(const mor_soil *soil, int64_t particle)
 {
-    return mor_sleep_is(soil->sleep.states, particle / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+    return (soil->hold.is_held != NULL && soil->hold.is_held[particle]) ||
+           mor_sleep_is(soil->sleep.states, particle / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+}
+
+/** Reach of the lists: kernel support plus skin, unit m. */
+static inline double mor_soil_reach(const mor_soil *soil)
+{
+    return MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
 }
 
 /** Sizes of reductions over particles: particles handed to a material at once, most values of a block. */

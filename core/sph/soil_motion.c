@@ -122,8 +122,7 @@ static void find_clusters_at_walls(mor_soil *soil)
 
 static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view)
 {
-    const double reach =
-        MOR_KERNEL_SUPPORT * soil->smoothing_length + soil->settings.scheme.skin_ratio * soil->settings.spacing;
+    const double reach = mor_soil_reach(soil);
     const double *position = mor_view_read(view, MOR_FIELD_POSITION);
     mor_relation_points points;
     mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
@@ -289,7 +288,6 @@ typedef struct kick {
     double damping;       /* rate, 1/s */
     double local_damping; /* share, 1 */
     double *velocity, *acceleration, *records;
-    const int8_t *states; /* of sleep, shape [blocks]; NULL: all are awake */
 } kick;
 
 enum { KICK_SPEED, KICK_STRENGTH };
@@ -305,7 +303,7 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
     for (int64_t i = first; i < last; ++i) {
         double *v = it->velocity + 3 * i;
         double *a = it->acceleration + 3 * i;
-        if (mor_sleep_is(it->states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+        if (mor_soil_is_asleep(soil, i)) {
             memset(a, 0, 3 * sizeof *a); /* what boundaries added is held, and moves nothing */
             continue;
         }
@@ -370,8 +368,8 @@ mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, cons
                 is_damped ? scheme->local_damping : 0.0,
                 mor_view_write(view, MOR_FIELD_VELOCITY),
                 mor_view_write(view, MOR_FIELD_ACCELERATION),
-                mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
-                mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
+                mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
+    mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states);
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 2, kick_block, &job, soil->room.values, largest);
     mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->largest_speed);

@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/particle/kernel.h"
+#include "core/sph/boundary/soil_wall.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,6 +18,89 @@ enum { FALLS = 4 };
 bool mor_soil_may_sleep(const void *owner)
 {
     return ((const mor_soil *)owner)->sleep.states != NULL;
+}
+
+bool mor_soil_may_hold(const void *owner)
+{
+    return ((const mor_soil *)owner)->hold.is_held != NULL;
+}
+
+bool mor_soil_has_quiet(const void *owner)
+{
+    return ((const mor_soil *)owner)->settings.scheme.sleep_after > 0.0;
+}
+
+mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_particles)
+{
+    const mor_soil_settings *settings = &soil->settings;
+    const int n_regions = settings->n_regions > 1 ? settings->n_regions : 1;
+    bool is_held = false;
+    for (int k = 0; k < n_regions && k < MOR_HOLD_REGIONS_MAX; ++k) {
+        is_held = is_held || settings->released[k] > 0.0;
+    }
+    MOR_TRY(context, mor_soil_check_sleep(context, settings));
+    if (is_held) {
+        MOR_TRY(context, mor_hold_init(context, &soil->hold, n_particles, settings->released, n_regions));
+    }
+    return is_held || mor_soil_has_quiet(soil) ? mor_sleep_init(context, &soil->sleep, n_particles) : MOR_OK;
+}
+
+/* What a particle that is not released keeps, beside its state. */
+static const int standing[] = {MOR_FIELD_POSITION,         MOR_FIELD_VELOCITY,    MOR_FIELD_DENSITY,
+                               MOR_FIELD_DENSITY_RATE,     MOR_FIELD_STRESS,      MOR_FIELD_STRAIN_RATE,
+                               MOR_FIELD_MEAN_STRESS,      MOR_FIELD_FLOW,        MOR_FIELD_HOURGLASS,
+                               MOR_FIELD_HOURGLASS_MOMENT, MOR_FIELD_SPIN_STRESS, MOR_FIELD_QUIET,
+                               MOR_FIELD_QUIET_PLACE,      MOR_FIELD_QUIET_SPAN};
+enum { STANDING = sizeof standing / sizeof *standing };
+
+/* Its arrays: those of the fields, as a view gives them, then those of the state. */
+static int list_standing(const mor_soil *soil, double *const *data, double *const *state, mor_hold_array *arrays)
+{
+    for (int k = 0; k < STANDING; ++k) {
+        arrays[k] = (mor_hold_array){data[k], soil->set.fields[standing[k]].n_components};
+    }
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        arrays[STANDING + k] = (mor_hold_array){state[k], soil->set.fields[soil->state_fields[k]].n_components};
+    }
+    return STANDING + soil->material->n_state;
+}
+
+mor_status mor_soil_hold(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    mor_hold *hold = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->hold);
+    double *data[STANDING];
+    double *state[MOR_MATERIAL_STATES_MAX];
+    const double *state_in[MOR_MATERIAL_STATES_MAX];
+    mor_hold_array arrays[STANDING + MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < STANDING; ++k) {
+        data[k] = (double *)mor_view_read(view, standing[k]); /* what is kept is read from it alone */
+    }
+    mor_view_read_state(view, soil->state_fields, soil->material->n_state, state_in);
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        state[k] = (double *)state_in[k];
+    }
+    /* Of the two steps beside a time of release the nearer one is the first. */
+    const double time = soil->is_settling || soil->is_relaxing ? INFINITY : step->time + 0.5 * step->length;
+    mor_hold_find(hold, mor_soil_read_region(soil, view), soil->set.n_particles, time);
+    return mor_hold_keep(context, hold, arrays, list_standing(soil, data, state, arrays));
+}
+
+mor_status mor_soil_put_back(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    const mor_hold *hold = mor_view_read_shared(view, MOR_RESOURCE_LISTS, &soil->hold);
+    double *data[STANDING];
+    double *state[MOR_MATERIAL_STATES_MAX];
+    mor_hold_array arrays[STANDING + MOR_MATERIAL_STATES_MAX];
+    (void)context;
+    (void)step;
+    for (int k = 0; k < STANDING; ++k) {
+        data[k] = mor_view_write(view, standing[k]);
+    }
+    mor_view_write_state(view, soil->state_fields, soil->material->n_state, state);
+    mor_hold_put_back(hold, arrays, list_standing(soil, data, state, arrays));
+    return MOR_OK;
 }
 
 /* Limits below which a particle is quiet. Waves in soil that stands still go on for long, but nowhere: displacement
@@ -88,6 +172,19 @@ static double find_patch_box(const mor_boundary *boundary, const mor_boundary_pa
     return sqrt(fastest2);
 }
 
+/* Likewise of a wall, whose particles may not all be there. */
+static double find_wall_box(const mor_soil_contact *contact, mor_sleep_box *box)
+{
+    double all[6];
+    if (contact->blocks == NULL) {
+        return find_patch_box(contact->boundary, &contact->boundary->patches[0], box);
+    }
+    mor_wall_blocks_bound(contact, all);
+    memcpy(box->minimum, all, sizeof box->minimum);
+    memcpy(box->maximum, all + 3, sizeof box->maximum);
+    return mor_vector_length(contact->velocity);
+}
+
 /* Whether a body has stayed where it is, as soil has that sleeps. */
 static bool has_stayed(mor_soil *soil, const mor_boundary *boundary, const mor_boundary_patch *patch, double *rest,
                        double length)
@@ -116,7 +213,8 @@ static int find_moving(mor_soil *soil, double speed, double length)
             double *rest = contact->is_wall ? NULL : soil->sleep.rests + MOR_SLEEP_REST * body++;
             const bool stays = rest == NULL || has_stayed(soil, contact->boundary, patch, rest, length);
             if (patch->is_removed || may_move || (is_free && !stays)) {
-                const double fastest = find_patch_box(contact->boundary, patch, &soil->moving[n]);
+                const double fastest = contact->is_wall ? find_wall_box(contact, &soil->moving[n])
+                                                        : find_patch_box(contact->boundary, patch, &soil->moving[n]);
                 n += patch->is_removed || fastest > (is_free ? speed : 0.0) || (is_free && !stays);
             }
         }
@@ -161,12 +259,16 @@ mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, con
     mor_sleep_job decision = {.n_particles = soil->set.n_particles,
                               .position = mor_view_read(view, MOR_FIELD_POSITION),
                               .quiet_time = mor_view_read(view, MOR_FIELD_QUIET),
+                              .held = soil->hold.n_held > 0 ? soil->hold.blocks : NULL,
                               .after = soil->settings.scheme.sleep_after,
                               .reach = MOR_KERNEL_SUPPORT * soil->smoothing_length,
                               .moving = soil->moving};
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
-    /* While gravity grows all soil is loaded. */
+    /* While gravity grows all soil is loaded, but what is not released stands. */
     if (mor_soil_gravity_part(soil, step) < 1.0 || soil->is_relaxing) {
+        decision.quiet_time = NULL;
+    }
+    if (decision.held == NULL && decision.quiet_time == NULL) {
         mor_sleep_wake(sleep);
         return MOR_OK;
     }

@@ -86,6 +86,29 @@ mor_status mor_lattice_fill(mor_context *context, const mor_lattice_request *req
 mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_request *request, mor_lattice_points *points,
                                   double **shares);
 
+/** Numbers cells, so that mor_lattice_place_cells finds them again.
+ *  @param request  [in]   that the points were filled with
+ *  @param points   [in]   of mor_lattice_fill_cells, or some of them in their order
+ *  @param shares   [in]   shape [points->n_points]; theirs, 1
+ *  @param numbers  [out]  shape [points->n_points]; rising
+ *  @param is_whole [out]  one flag: whether all points are found again to the last bit; if not, the
+ *                         numbers are of no use
+ *  Returns: as mor_lattice_fill. */
+mor_status mor_lattice_number_cells(mor_context *context, const mor_lattice_request *request,
+                                    const mor_lattice_points *points, const double *shares, int64_t *numbers,
+                                    bool *is_whole);
+
+/** Finds cells again by their numbers, as mor_lattice_fill_cells has found them.
+ *  @param request   [in]   that they were numbered with
+ *  @param numbers   [in]   shape [n]
+ *  @param n         [in]   number of cells
+ *  @param positions [out]  shape [n, 3], unit m
+ *  @param shares    [out]  shape [n], above 0 to 1, 1
+ *  Returns: MOR_OK; as mor_lattice_fill; MOR_ERROR_INTERNAL for numbers of other cells.
+ *  Cost: as mor_lattice_fill_cells for cells at the surface. */
+mor_status mor_lattice_place_cells(mor_context *context, const mor_lattice_request *request, const int64_t *numbers,
+                                   int64_t n, double *positions, double *shares);
+
 /** Frees points and sets them empty. Empty points are accepted. */
 void mor_lattice_clear(mor_context *context, mor_lattice_points *points);
 

@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Cells of a lattice that a surface cuts, with the fraction of them inside and its centroid. */
+#include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "relaxation/relax/lattice_internal.h"
@@ -188,6 +189,78 @@ mor_status mor_lattice_fill_cells(mor_context *context, const mor_lattice_reques
         points->n_points +=
             walk_row(request, &box, box.first[1] + row % box.count[1], box.first[2] + row / box.count[1],
                      points->positions + 3 * points->n_points, *shares + points->n_points);
+    }
+    return MOR_OK;
+}
+
+/* The cell in which a finished point lies. */
+static void find_cell(const mor_lattice_request *request, const double *position, int64_t *index)
+{
+    double moved[3];
+    double place[3];
+    for (int a = 0; a < 3; ++a) {
+        moved[a] = position[a] - request->translation[a];
+    }
+    mor_matrix_apply_transposed(request->rotation, moved, place);
+    for (int a = 0; a < 3; ++a) {
+        index[a] = a < request->dimension ? (int64_t)floor((place[a] - request->origin[a]) / request->spacing) : 0;
+    }
+}
+
+static void place_whole(const mor_lattice_request *request, const int64_t *index, double *position)
+{
+    double node[3];
+    mor_lattice_place_node(request, index, node);
+    mor_lattice_map(request, node, position);
+}
+
+mor_status mor_lattice_number_cells(mor_context *context, const mor_lattice_request *request,
+                                    const mor_lattice_points *points, const double *shares, int64_t *numbers,
+                                    bool *is_whole)
+{
+    mor_lattice_box box = {{0, 0, 0}, {0, 0, 0}};
+    int64_t before = -1;
+    MOR_TRY(context, mor_lattice_find_box(context, request, 1, &box));
+    *is_whole = true;
+    for (int64_t i = 0; i < points->n_points && *is_whole; ++i) {
+        const double *position = points->positions + 3 * i;
+        int64_t index[3];
+        double again[3];
+        int64_t number = 0;
+        find_cell(request, position, index);
+        for (int a = 2; a >= 0; --a) {
+            const int64_t at = index[a] - box.first[a];
+            *is_whole = *is_whole && at >= 0 && at < box.count[a];
+            number = number * box.count[a] + at;
+        }
+        place_whole(request, index, again);
+        *is_whole = *is_whole && number > before && (shares[i] < 1.0 || memcmp(again, position, sizeof again) == 0);
+        numbers[i] = 2 * number + (shares[i] == 1.0);
+        before = number;
+    }
+    return MOR_OK;
+}
+
+mor_status mor_lattice_place_cells(mor_context *context, const mor_lattice_request *request, const int64_t *numbers,
+                                   int64_t n, double *positions, double *shares)
+{
+    mor_lattice_box box = {{0, 0, 0}, {0, 0, 0}};
+    MOR_TRY(context, mor_lattice_find_box(context, request, 1, &box));
+    for (int64_t i = 0; i < n; ++i) {
+        const int64_t at = numbers[i] / 2;
+        const int64_t index[3] = {box.first[0] + at % box.count[0], box.first[1] + at / box.count[0] % box.count[1],
+                                  box.first[2] + at / box.count[0] / box.count[1]};
+        if (numbers[i] % 2 == 1) {
+            place_whole(request, index, positions + 3 * i);
+            shares[i] = 1.0;
+            continue;
+        }
+        cell it;
+        look_at(request, index, &it);
+        MOR_CHECK(context, it.share > 0.0 && it.share < 1.0, MOR_ERROR_INTERNAL,
+                  "a cut cell of a lattice has the share %g when it is looked at again", it.share);
+        mor_lattice_map(request, it.middle, positions + 3 * i);
+        shares[i] = it.share;
     }
     return MOR_OK;
 }

@@ -124,6 +124,30 @@ mor_status mor_shape_new_release(mor_context *context, const mor_terrain *terrai
 mor_status mor_terrain_fill(mor_context *context, const mor_terrain *terrain, double spacing, const double *origin,
                             int layers, const mor_bounds *bounds, double **points, int64_t *n_points);
 
+/** What mor_terrain_fill is asked for. */
+typedef struct mor_terrain_columns {
+    double spacing;    /* m */
+    double origin[2];  /* a corner of a lattice cell, m */
+    int layers;        /* spacings, 1 */
+    mor_bounds bounds; /* m */
+} mor_terrain_columns;
+
+/** Numbers wall particles, so that mor_terrain_place finds them again.
+ *  @param points   [in]   shape [n_points, 3]; of mor_terrain_fill, or some of them in their order, unit m
+ *  @param n_points [in]   number of points
+ *  @param numbers  [out]  shape [n_points]; rising; -1: it is none of these points
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_terrain_number(mor_context *context, const mor_terrain *terrain, const mor_terrain_columns *wanted,
+                              const double *points, int64_t n_points, int64_t *numbers);
+
+/** Finds wall particles again by their numbers, as mor_terrain_fill has placed them.
+ *  @param numbers [in]   shape [n]
+ *  @param n       [in]   number of particles
+ *  @param points  [out]  shape [n, 3], unit m
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT. */
+mor_status mor_terrain_place(mor_context *context, const mor_terrain *terrain, const mor_terrain_columns *wanted,
+                             const int64_t *numbers, int64_t n, double *points);
+
 /** Soil particles of a release that follow the surface: columns over the same square lattice, the first layer half a
  *  spacing above the surface, as many layers as the thickness holds at that place. With mor_terrain_fill below, the two
  *  mirror each other at the surface on any slope.

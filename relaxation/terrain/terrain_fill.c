@@ -10,7 +10,8 @@
 /* A point closer to an edge than this fraction of the spacing counts as lying on it, and one on an edge is outside. */
 #define ON_EDGE 1e-9
 
-enum { COLUMNS_AT_ONCE = 64 };
+/* LAYERS_MOST: layers that numbers of particles have room for. */
+enum { COLUMNS_AT_ONCE = 64, LAYERS_MOST = 65536 };
 
 /* The columns of particles of one fill. */
 typedef struct columns {
@@ -106,6 +107,13 @@ static mor_status fill(mor_context *context, const columns *all, double **points
     return status;
 }
 
+static void place_layer(const columns *all, int64_t column, int64_t layer, double *point)
+{
+    const double step = all->release != NULL ? all->spacing : -all->spacing;
+    place_column(all, column, point);
+    point[2] += ((double)layer + 0.5) * step;
+}
+
 static mor_status check_spacing(mor_context *context, double spacing)
 {
     MOR_CHECK(context, spacing > 0.0 && isfinite(spacing), MOR_ERROR_ARGUMENT,
@@ -113,18 +121,60 @@ static mor_status check_spacing(mor_context *context, double spacing)
     return MOR_OK;
 }
 
+static mor_status find_ground(mor_context *context, const mor_terrain *terrain, const mor_terrain_columns *wanted,
+                              columns *all)
+{
+    *all = (columns){.terrain = terrain,
+                     .spacing = wanted->spacing,
+                     .depth = wanted->layers * wanted->spacing * (1.0 + ON_EDGE),
+                     .layers = wanted->layers};
+    return find_columns(context, wanted->origin, wanted->bounds.minimum, wanted->bounds.maximum, all);
+}
+
 mor_status mor_terrain_fill(mor_context *context, const mor_terrain *terrain, double spacing, const double *origin,
                             int layers, const mor_bounds *bounds, double **points, int64_t *n_points)
 {
+    const mor_terrain_columns wanted = {spacing, {origin[0], origin[1]}, layers, *bounds};
+    columns all;
     *points = NULL;
     *n_points = 0;
     MOR_TRY(context, check_spacing(context, spacing));
     MOR_TRY(context, mor_terrain_check(context, terrain));
     MOR_CHECK(context, layers >= 1, MOR_ERROR_ARGUMENT, "%d layers of particles: give at least 1", layers);
-    columns all = {
-        .terrain = terrain, .spacing = spacing, .depth = layers * spacing * (1.0 + ON_EDGE), .layers = layers};
-    MOR_TRY(context, find_columns(context, origin, bounds->minimum, bounds->maximum, &all));
+    MOR_TRY(context, find_ground(context, terrain, &wanted, &all));
     MOR_TRY(context, fill(context, &all, points, n_points));
+    return MOR_OK;
+}
+
+mor_status mor_terrain_number(mor_context *context, const mor_terrain *terrain, const mor_terrain_columns *wanted,
+                              const double *points, int64_t n_points, int64_t *numbers)
+{
+    columns all;
+    MOR_TRY(context, find_ground(context, terrain, wanted, &all));
+    for (int64_t i = 0; i < n_points; ++i) {
+        const double *point = points + 3 * i;
+        int64_t index[2];
+        double top[3];
+        for (int a = 0; a < 2; ++a) {
+            index[a] = (int64_t)(floor((point[a] - all.origin[a]) / all.spacing) - all.first[a]);
+        }
+        const int64_t column = index[1] * all.n[0] + index[0];
+        const bool is_among = index[0] >= 0 && index[0] < all.n[0] && index[1] >= 0 && index[1] < all.n[1];
+        place_column(&all, is_among ? column : 0, top);
+        const double layer = floor((top[2] - point[2]) / all.spacing);
+        numbers[i] = is_among && layer >= 0.0 && layer < LAYERS_MOST ? column * LAYERS_MOST + (int64_t)layer : -1;
+    }
+    return MOR_OK;
+}
+
+mor_status mor_terrain_place(mor_context *context, const mor_terrain *terrain, const mor_terrain_columns *wanted,
+                             const int64_t *numbers, int64_t n, double *points)
+{
+    columns all;
+    MOR_TRY(context, find_ground(context, terrain, wanted, &all));
+    for (int64_t i = 0; i < n; ++i) {
+        place_layer(&all, numbers[i] / LAYERS_MOST, numbers[i] % LAYERS_MOST, points + 3 * i);
+    }
     return MOR_OK;
 }
 

@@ -167,6 +167,7 @@ typedef struct mor_case_soil {
     /* Formulas of a place in the frame of the case in m, before the scale; "": none. */
     char velocity_formula[3][MOR_CASE_TEXT_BYTES]; /* initial velocity in place of the above, m/s */
     char stress_formula[6][MOR_CASE_TEXT_BYTES];   /* initial stress: xx, yy, zz, xy, yz, zx; tension positive, Pa */
+    double released;                               /* time until which it stands as placed, s; 0: from the start */
     bool is_relaxed;                               /* filled with relaxed particles, else with those of the lattice */
     mor_case_stress initial_stress;
     double pressure;           /* of a uniform initial stress, Pa */

@@ -150,8 +150,10 @@ static void print_sizes(FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
     int64_t n_walls = 0;
+    int64_t n_filled = 0;
     for (int w = 0; w < s->soil.n_walls; ++w) {
-        n_walls += s->soil.walls[w].n_points;
+        n_walls += mor_soil_contact_points(&s->soil.walls[w]);
+        n_filled += s->soil.walls[w].n_points;
     }
     fprintf(out, "%s\n", c->title);
     fprintf(out, "  dimension               %d\n", c->dimension);
@@ -176,6 +178,9 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     fprintf(out, "  walls                   %d", c->n_walls);
     if (s->has_soil) { /* bodies touch the shapes themselves */
         fprintf(out, ", %lld particles", (long long)n_walls);
+    }
+    if (n_filled < n_walls) {
+        fprintf(out, " at most, %lld at the start: where soil is near", (long long)n_filled);
     }
     fprintf(out, "\n");
     for (int w = 0; w < c->n_walls; ++w) {

@@ -103,6 +103,7 @@ static void stop_motion(mor_case *c)
     c->numerics.sleep_after = 0.0;
     for (int k = 0; k < c->n_soils; ++k) {
         memset(c->soils[k].velocity, 0, sizeof c->soils[k].velocity);
+        c->soils[k].released = 0.0;
         memset(c->soils[k].velocity_formula, 0, sizeof c->soils[k].velocity_formula);
         keep_lateral_ratio(&c->soils[k]);
     }

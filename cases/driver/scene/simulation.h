@@ -56,6 +56,7 @@ typedef struct mor_simulation {
     mor_simulation_frame frame;
     mor_schedule schedule;
     mor_motion wall_motions[MOR_CASE_WALLS_MAX]; /* prescribed, of walls on a path; without rows: none; owned */
+    struct mor_wall_filling *wall_fillings;      /* shape [n_walls]; how they were filled; owned */
     double up[3];                                /* unit vector against gravity, 1; y (2D) or z (3D) without gravity */
     double surface_height;                       /* of the initial soil along up over the placed origin, m */
     double soil_depth; /* height of the highest column of the initial soil along up, m; 0 without */

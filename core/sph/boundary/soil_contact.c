@@ -3,12 +3,14 @@
 /* Boundaries of the soil: how they are made, moved and listed. What they do to the soil: soil_contact_forces.c; what
  * the soil does to them: soil_contact_share.c. */
 #include "core/sph/boundary/soil_contact_internal.h"
+#include "core/sph/boundary/soil_wall.h"
 
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/base/reduce.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { RECORD = MOR_BOUNDARY_RECORD };
@@ -16,7 +18,7 @@ enum { RECORD = MOR_BOUNDARY_RECORD };
 /* What every contact has, once the boundary's points stand. */
 static mor_status prepare_contact(mor_context *context, mor_soil_contact *contact, int64_t n_soil_clusters)
 {
-    const int64_t n = contact->n_points;
+    const int64_t n = contact->blocks != NULL ? MOR_CLUSTER : contact->n_points; /* blocks make room as they come */
     contact->longest_step = INFINITY;
     MOR_TRY(context, mor_tree_init(context, &contact->tree, n));
     MOR_TRY(context, mor_relation_init(context, &contact->relation, MOR_CONFIGURATION_CURRENT, n_soil_clusters));
@@ -26,6 +28,7 @@ static mor_status prepare_contact(mor_context *context, mor_soil_contact *contac
     if (!contact->is_wall || contact->base != NULL) {
         MOR_TRY(context, MOR_NEW(context, &contact->built, 3 * n, "boundary points of the lists"));
     }
+    mor_tree_resize(&contact->tree, contact->n_points);
     mor_tree_fit(&contact->tree, contact->boundary->records, RECORD);
     return contact->is_wall ? mor_images_init(context, &contact->images, contact->period, n) : MOR_OK;
 }
@@ -45,11 +48,12 @@ static double find_largest_speed(const mor_wall_request *request)
 
 static mor_status make_wall(mor_context *context, mor_soil_contact *contact, const mor_wall_request *request)
 {
-    const int64_t n = request->n_points;
+    const bool has_normals = request->source != NULL ? request->source->has_normals : request->normals != NULL;
+    const int64_t n = request->source != NULL ? MOR_CLUSTER : request->n_points;
     MOR_TRY(context, MOR_NEW(context, &contact->boundary, 1, "wall"));
     mor_boundary *boundary = contact->boundary;
     memcpy(boundary->name, contact->name, sizeof boundary->name);
-    boundary->n_points = n;
+    boundary->n_points = contact->n_points;
     boundary->n_patches = 1;
     contact->motion = request->motion;
     contact->rotates = request->motion != NULL && mor_motion_rotates(request->motion);
@@ -57,9 +61,10 @@ static mor_status make_wall(mor_context *context, mor_soil_contact *contact, con
     boundary->largest_speed = find_largest_speed(request);
     MOR_TRY(context, MOR_NEW(context, &boundary->records, (n + MOR_CLUSTER) * RECORD, "wall points"));
     MOR_TRY(context, MOR_NEW(context, &boundary->patches, 1, "patch of a wall"));
-    boundary->patches[0] = (mor_boundary_patch){
-        .n_points = n, .friction = request->friction, .friction_coefficient = request->friction_coefficient};
-    if (request->normals != NULL) {
+    boundary->patches[0] = (mor_boundary_patch){.n_points = contact->n_points,
+                                                .friction = request->friction,
+                                                .friction_coefficient = request->friction_coefficient};
+    if (has_normals) {
         MOR_TRY(context, MOR_NEW(context, &contact->normals, 3 * n, "normals of a wall"));
         MOR_TRY(context, MOR_NEW(context, &contact->depths, n, "normals of a wall"));
     }
@@ -107,14 +112,15 @@ mor_status mor_soil_contact_init(mor_context *context, mor_soil_contact *contact
     memset(contact, 0, sizeof *contact);
     contact->period = period != NULL && period->is_any ? period : NULL;
     strncpy(contact->name, request->name, sizeof contact->name - 1);
-    contact->n_points = request->n_points;
+    contact->n_points = request->source != NULL ? 0 : request->n_points;
     contact->is_wall = true;
     contact->stress = request->stress;
     contact->dimension = request->dimension;
     memcpy(contact->velocity, request->velocity, sizeof contact->velocity);
     mor_status status = make_wall(context, contact, request);
     if (status == MOR_OK) {
-        status = copy_points(context, contact, request);
+        status = request->source != NULL ? mor_wall_blocks_init(context, contact, request)
+                                         : copy_points(context, contact, request);
     }
     if (status == MOR_OK) {
         status = prepare_contact(context, contact, n_soil_clusters);
@@ -201,6 +207,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
 void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
 {
     free_slots(context, contact);
+    mor_wall_blocks_clear(context, contact);
     if (contact->is_wall && contact->boundary != NULL) {
         MOR_FREE(context, &contact->boundary->records);
         MOR_FREE(context, &contact->boundary->patches);
@@ -244,6 +251,9 @@ static void pose_points(mor_soil_contact *contact, const mor_pose *pose)
 void mor_soil_contact_move(mor_context *context, mor_soil_contact *contact, double time)
 {
     contact->boundary->patches[0].is_removed = contact->removed_at > 0.0 && time >= contact->removed_at;
+    if (contact->blocks != NULL) {
+        contact->blocks->moved_to = time;
+    }
     if (contact->motion != NULL && contact->base != NULL) {
         mor_pose pose;
         mor_motion_find(contact->motion, time, &pose);
@@ -302,7 +312,7 @@ double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact)
     }
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 1, find_farthest, contact, contact->farthest,
                &farthest);
-    return sqrt(farthest);
+    return mor_larger(sqrt(farthest), mor_wall_blocks_drift(contact));
 }
 
 /* The patch of a point. */
@@ -402,12 +412,47 @@ static void sort_slots(mor_soil_contact *contact)
     first[0] = 0;
 }
 
+int64_t mor_soil_contact_points(const mor_soil_contact *contact)
+{
+    return contact->blocks != NULL ? contact->blocks->n_points : contact->n_points;
+}
+
+const double *mor_soil_contact_start(const mor_soil_contact *contact, int *stride)
+{
+    *stride = contact->blocks != NULL ? 3 : RECORD;
+    return contact->blocks != NULL ? contact->blocks->start : contact->boundary->records + MOR_BOUNDARY_POSITION;
+}
+
+void mor_soil_contact_forget_start(mor_context *context, mor_soil_contact *contact)
+{
+    if (contact->blocks != NULL) {
+        MOR_FREE(context, &contact->blocks->start);
+    }
+}
+
+mor_status mor_soil_contact_fill(mor_context *context, mor_soil_contact *contact, const mor_tree *soil, double reach)
+{
+    bool has_grown = false;
+    MOR_TRY(context, mor_wall_blocks_fill(context, contact, soil, reach, &has_grown));
+    if (has_grown && !isnan(contact->blocks->moved_to)) {
+        mor_soil_contact_move(context, contact, contact->blocks->moved_to);
+    }
+    if (has_grown) {
+        mor_tree_fit(&contact->tree, contact->boundary->records, RECORD);
+    }
+    return MOR_OK;
+}
+
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach)
 {
     mor_boundary *boundary = contact->boundary;
+    MOR_TRY(context, mor_soil_contact_fill(context, contact, soil->tree, reach));
     if (mor_images_are_used(&contact->images)) {
         MOR_TRY(context, mor_soil_contact_find_images(context, contact, soil, reach));
+    }
+    if (contact->blocks != NULL) {
+        contact->blocks->built_at = contact->blocks->moved_to;
     }
     if (contact->built != NULL) {
         mor_tree_fit(&contact->tree, boundary->records, RECORD);

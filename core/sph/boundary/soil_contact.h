@@ -23,6 +23,28 @@ typedef enum mor_wall_stress {
     MOR_WALL_STRESS_LINEAR   /* its own, varying along and across the wall as it varies in the soil */
 } mor_wall_stress;
 
+/** Particles of a wall. */
+typedef struct mor_wall_points {
+    double *positions; /* shape [n, 3]; before any motion, m */
+    double *shares;    /* shape [n]; part of the volume of a particle which each has, 1 */
+    double *normals;   /* shape [n, 3]; of the face nearest to each, 1; NULL without */
+    double *depths;    /* shape [n]; below that face, > 0 in the wall, m; with normals */
+} mor_wall_points;
+
+/** Who finds particles of a wall again by their numbers. */
+typedef struct mor_wall_source {
+    /** Finds particles, each the same to the last bit whenever it is asked for.
+     *  @param owner   [in]      its data; shared by threads
+     *  @param numbers [in]      shape [n]; of the particles
+     *  @param n       [in]      number of particles
+     *  @param points  [in,out]  shape [n]; the arrays are the caller's
+     *  Returns: MOR_OK; what went wrong. */
+    mor_status (*place)(mor_context *context, const void *owner, const int64_t *numbers, int64_t n,
+                        const mor_wall_points *points);
+    const void *owner; /* outlives the wall */
+    bool has_normals;
+} mor_wall_source;
+
 /** What a wall is made from. Borrowed during mor_soil_contact_init only. */
 typedef struct mor_wall_request {
     const char *name;      /* zero-terminated */
@@ -39,6 +61,10 @@ typedef struct mor_wall_request {
     double removed_at;           /* time from which the wall is not there any more, s; 0: it stays */
     int dimension;               /* 2 or 3 */
     mor_wall_stress stress;
+    const mor_wall_source *source; /* copied; then the wall holds particles where soil is near alone, and has no normals
+                                    * and shares here; NULL: it is filled at once. Not for a wall that rotates beside
+                                    * soil that sleeps, whose box follows from all particles */
+    const int64_t *numbers;        /* shape [n_points]; of the particles for the source, rising; with a source */
 } mor_wall_request;
 
 /** Repulsion between soil particles and points that come closer than a radius, beside the mirrored stress. It grows
@@ -73,19 +99,20 @@ typedef struct mor_contact_corner {
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
     int64_t n_points;
-    mor_boundary *boundary; /* a wall's own, otherwise borrowed */
-    bool is_wall;           /* a single patch that moves as prescribed below; owns its boundary */
-    double *base;           /* shape [n_points, 3]; a wall's points before any motion, m; NULL: does not move */
-    double *base_normals;   /* shape [n_points, 3]; its normals before any motion, 1; NULL: it does not rotate */
-    double *normals;    /* shape [n_points, 3]; of faces, 1; a wall's own, otherwise borrowed; NULL: as points lie */
-    double *transfer;   /* shape [capacity * 8, 3]; what corners of the kernel gradient are its own, less what it has
+    mor_boundary *boundary;         /* a wall's own, otherwise borrowed */
+    bool is_wall;                   /* a single patch that moves as prescribed below; owns its boundary */
+    struct mor_wall_blocks *blocks; /* of a wall, of which only some are filled; owned; NULL: it is filled as a whole */
+    double *base;                   /* shape [n_points, 3]; a wall's points before any motion, m; NULL: does not move */
+    double *base_normals; /* shape [n_points, 3]; its normals before any motion, 1; NULL: it does not rotate */
+    double *normals;      /* shape [n_points, 3]; of faces, 1; a wall's own, otherwise borrowed; NULL: as points lie */
+    double *transfer;     /* shape [capacity * 8, 3]; what corners of the kernel gradient are its own, less what it has
                          * been given of them, 1/m; NULL without */
-    double *depths;     /* shape [n_points]; below those faces, m; a wall's own, otherwise borrowed; with normals */
-    double *seen_faces; /* shape [capacity * 8, MOR_FACE_SUMS]; units of the enum; NULL without */
-    double *hold;       /* shape [capacity]; scratch: largest depth of soil in some slots, m; NULL without */
-    double deepest;     /* that soil lay in it in the last step, m; 0: none does */
-    double *built;      /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
-    double *farthest;   /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
+    double *depths;       /* shape [n_points]; below those faces, m; a wall's own, otherwise borrowed; with normals */
+    double *seen_faces;   /* shape [capacity * 8, MOR_FACE_SUMS]; units of the enum; NULL without */
+    double *hold;         /* shape [capacity]; scratch: largest depth of soil in some slots, m; NULL without */
+    double deepest;       /* that soil lay in it in the last step, m; 0: none does */
+    double *built;        /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
+    double *farthest;     /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     const mor_period *period; /* of space; borrowed; NULL: none */
     mor_images images;        /* of a wall's points, behind them in all arrays of points; of no period: zeroed */
     int64_t image_room;       /* images that those arrays have room for */
@@ -155,10 +182,28 @@ void mor_soil_contact_move(mor_context *context, mor_soil_contact *contact, doub
 /** Whether patches were removed since the lists were built, which are then to be built anew. */
 bool mor_soil_contact_is_stale(const mor_soil_contact *contact);
 
+/** Particles of a boundary whether or not they are filled, 1. */
+int64_t mor_soil_contact_points(const mor_soil_contact *contact);
+
+/** Where all particles of a wall are before any motion, to be asked for before mor_soil_contact_forget_start.
+ *  @param stride [out]  doubles from one to the next, 1
+ *  Returns: shape [mor_soil_contact_points(contact)], unit m; borrowed; NULL: they were forgotten. */
+const double *mor_soil_contact_start(const mor_soil_contact *contact, int *stride);
+
+/** Frees what is kept for mor_soil_contact_start alone. */
+void mor_soil_contact_forget_start(mor_context *context, mor_soil_contact *contact);
+
+/** Fills a wall where soil is near, as mor_soil_contact_build does; nothing for other boundaries.
+ *  @param soil    [in]      its fitted tree
+ *  @param reach   [in]      kernel support plus skin, unit m
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY; what the source of the wall returns. */
+mor_status mor_soil_contact_fill(mor_context *context, mor_soil_contact *contact, const mor_tree *soil, double reach);
+
 /** Rebuilds the lists of points that soil clusters see, cuts them into slots and makes room for their sums.
  *  @param soil    [in]      the soil's records and fitted tree
  *  @param reach   [in]      kernel support plus skin, unit m
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more slots than ever before. */
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY; as mor_soil_contact_fill. Cost: allocates only when there are more slots, or
+ *  particles of a wall, than ever before. */
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach);
 

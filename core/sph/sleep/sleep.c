@@ -158,8 +158,8 @@ static bool blocks_reach(const mor_sleep *sleep, double reach, int64_t block, in
 static bool is_quiet(const mor_sleep_job *job, int64_t block)
 {
     const int64_t end = (block + 1) * MOR_SLEEP_PARTICLES;
-    bool is = true;
-    for (int64_t i = block * MOR_SLEEP_PARTICLES; i < end && i < job->n_particles; ++i) {
+    bool is = job->quiet_time != NULL;
+    for (int64_t i = block * MOR_SLEEP_PARTICLES; is && i < end && i < job->n_particles; ++i) {
         is = is && job->quiet_time[i] >= job->after;
     }
     return is;
@@ -237,20 +237,28 @@ static bool have_all(const mor_sleep *sleep, double reach, int64_t block, const 
     return true;
 }
 
+/* Whether a block sleeps whatever moves. */
+static bool is_held(const mor_sleep_job *job, int64_t block)
+{
+    return job->held != NULL && job->held[block];
+}
+
 void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job)
 {
     const int64_t n = sleep->n_blocks;
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
         find_boxes(sleep, job, block);
-        sleep->calm[block] = (int8_t)(is_quiet(job, block) && !sees_motion(sleep, job, block));
+        sleep->calm[block] = (int8_t)(is_held(job, block) || (is_quiet(job, block) && !sees_motion(sleep, job, block)));
     }
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
-        const bool sleeps = sleep->calm[block] && have_all(sleep, job->reach, block, sleep->calm, 1);
+        const bool sleeps =
+            is_held(job, block) || (sleep->calm[block] && have_all(sleep, job->reach, block, sleep->calm, 1));
         sleep->states[block] = sleeps ? MOR_SLEEP_ASLEEP : MOR_SLEEP_AWAKE;
     }
     /* Held is more than asleep, so that marking some does not hide others. */
     MOR_PARALLEL_FOR (context, block, n, GRAIN) {
         const bool is_deep = sleep->states[block] != MOR_SLEEP_AWAKE && !sleep->at_bodies[block] &&
+                             !(is_held(job, block) && sees_motion(sleep, job, block)) &&
                              have_all(sleep, job->reach, block, sleep->states, MOR_SLEEP_ASLEEP);
         sleep->calm[block] = (int8_t)is_deep;
     }

@@ -61,10 +61,11 @@ typedef struct mor_sleep_box {
 /** What is decided by. Borrowed. */
 typedef struct mor_sleep_job {
     int64_t n_particles;
-    const double *position;      /* shape [n_particles, 3], m */
-    const double *quiet_time;    /* shape [n_particles]; for which each has stayed below the limits, s */
-    double after;                /* time of calm after which a particle may sleep, s */
-    double reach;                /* support of the kernel, m */
+    const double *position;   /* shape [n_particles, 3], m */
+    const double *quiet_time; /* shape [n_particles]; for which each has stayed below the limits, s; NULL: for none */
+    const int8_t *held;       /* shape [blocks]; 1: it sleeps whatever moves; NULL: none does */
+    double after;             /* time of calm after which a particle may sleep, s */
+    double reach;             /* support of the kernel, m */
     const mor_sleep_box *moving; /* shape [n_moving] */
     int n_moving;
 } mor_sleep_job;

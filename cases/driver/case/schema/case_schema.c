@@ -216,6 +216,11 @@ static const mor_case_key soil_keys[] = {
     {{"velocity", VECTOR, "m/s", DEFAULT(0.0), ANY, NULL, "initial velocity"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, velocity)},
+    {{"released", SCALAR, "s", DEFAULT(0.0), NOT_NEGATIVE, NULL,
+      "time until which the soil stands as it was placed, whatever pushes it; other soil and bodies feel it as soil at "
+      "rest"},
+     MOR_CASE_STORE_REALS,
+     AT(mor_case_soil, released)},
     {{"particles", CHOICE, "1", DEFAULT(0.0), ANY, "lattice|relaxed",
       "how the shape is filled; lattice: with the nodes of the lattice; relaxed: with relaxed positions without its "
       "order, that follow surfaces, walls and bodies and hold the mass of the shape"},

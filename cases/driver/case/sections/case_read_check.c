@@ -213,12 +213,30 @@ static mor_status check_sleep(const mor_case_reader *reader, const mor_case_node
         c->numerics.shifting ? "shifting" : "xsph");
 }
 
+/* So do they with soil that is not released. */
+static mor_status check_released(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
+{
+    for (int k = 0; k < c->n_soils && (c->numerics.xsph > 0.0 || c->numerics.shifting); ++k) {
+        if (c->soils[k].released > 0.0) {
+            return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(root, "soil"),
+                                      "found released = %g s of the soil '%s' with %s, which moves soil that stands; "
+                                      "allowed: one of the two; "
+                                      "leave out released or %s",
+                                      c->soils[k].released, c->soils[k].name,
+                                      c->numerics.shifting ? "shifting" : "xsph",
+                                      c->numerics.shifting ? "shifting" : "xsph");
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case)
 {
     MOR_TRY(reader->context, check_ramp(reader, root, the_case));
     MOR_TRY(reader->context, check_series(reader, root, the_case));
     MOR_TRY(reader->context, check_barrier(reader, root, the_case));
     MOR_TRY(reader->context, check_sleep(reader, root, the_case));
+    MOR_TRY(reader->context, check_released(reader, root, the_case));
     warn_of_idle_settings(reader, root, the_case);
     warn_of_fit(reader, the_case);
     return MOR_OK;

@@ -131,6 +131,21 @@ static mor_status check_probe(const mor_case_reader *reader, const mor_case_node
     return MOR_OK;
 }
 
+/* Soil that stands lies in blocks, as soil that sleeps. */
+static mor_status check_released(const mor_case_reader *reader, const mor_case_node *node, const mor_case *c)
+{
+    for (int k = 0; k < c->n_soils; ++k) {
+        if (c->soils[k].released > 0.0) {
+            return MOR_CASE_NODE_FAIL(
+                reader->context, node,
+                "found domain.periodic with released = %g s of soil '%s'; allowed is one of both, for soil that stands "
+                "is not continued beyond a periodic face; leave released out",
+                c->soils[k].released, c->soils[k].name);
+        }
+    }
+    return MOR_OK;
+}
+
 mor_status mor_case_reader_periodic(const mor_case_reader *reader, const mor_case_node *root, const mor_case *c)
 {
     const mor_case_node *domain = mor_case_node_find(root, "domain");
@@ -147,6 +162,7 @@ mor_status mor_case_reader_periodic(const mor_case_reader *reader, const mor_cas
             "soil that sleeps does not see what moves beyond a periodic face; leave sleep_after out",
             c->numerics.sleep_after);
     }
+    MOR_TRY(reader->context, check_released(reader, node, c));
     if (c->dimension == 2 && mor_case_is_periodic(c, 2)) {
         return MOR_CASE_NODE_FAIL(reader->context, node,
                                   "found domain.periodic along z in plane strain; allowed: none, x, y, xy; correct it");

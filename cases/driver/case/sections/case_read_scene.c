@@ -124,6 +124,12 @@ static mor_status read_velocity(const mor_case_reader *reader, const mor_case_no
 {
     const mor_case_node *formula = mor_case_node_find(node, "velocity_formula");
     MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", soil->velocity));
+    if (soil->released > 0.0 && (formula != NULL || mor_vector_length(soil->velocity) > 0.0)) {
+        return MOR_CASE_NODE_FAIL(reader->context, mor_case_node_find(node, "released"),
+                                  "found 'released' = %g s and a velocity of the soil '%s', which stands until then; "
+                                  "allowed: one of the two; remove the other",
+                                  soil->released, soil->name);
+    }
     if (formula == NULL) {
         return MOR_OK;
     }

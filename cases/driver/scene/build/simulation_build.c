@@ -141,6 +141,9 @@ static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds,
     }
     s->placement = frame->is_placed ? &frame->placement : NULL;
     s->removes_outflow = c->outflow == 1;
+    for (int k = 0; k < c->n_soils; ++k) {
+        s->released[k] = c->soils[k].released;
+    }
     for (int k = 0; k < c->n_soils && mor_composite_is(simulation->material); ++k) {
         kinds[k] = (mor_soil_kind){.reference_density = c->soils[k].density,
                                    .lateral_ratio = mor_simulation_lateral_ratio(simulation, k),
@@ -236,54 +239,74 @@ static mor_status number_particles(mor_context *context, mor_simulation *simulat
     return MOR_OK;
 }
 
-/* The normals of the faces of a wall, seen from its points, and how deep these lie. */
-static mor_status find_wall_normals(mor_context *context, const mor_case *c, int wall, const mor_lattice_points *points,
-                                    double **normals, double **depths)
+/* What is given with the particles of a wall. */
+typedef struct wall_data {
+    double *shares, *normals, *depths;
+    int64_t *numbers;
+    mor_wall_source source;
+} wall_data;
+
+/* Either what finds the particles of a wall again, or the normals of all. */
+static mor_status find_wall_data(mor_context *context, const mor_simulation *simulation, int wall,
+                                 const mor_lattice_points *points, wall_data *found)
 {
-    MOR_TRY(context, MOR_NEW(context, normals, 3 * points->n_points, "normals of a wall"));
-    MOR_TRY(context, MOR_NEW(context, depths, points->n_points, "normals of a wall"));
-    for (int64_t i = 0; i < points->n_points; ++i) {
-        double place[3];
-        double normal[3];
-        mor_simulation_take_point_back(c, points->positions + 3 * i, place);
-        mor_shape_normal(c->walls[wall].shape, place, 1.0e-3 * c->spacing, normal);
-        mor_matrix_apply(c->rotation, normal, *normals + 3 * i);
-        (*depths)[i] = -mor_shape_distance(c->walls[wall].shape, place);
+    const mor_case *c = simulation->the_case;
+    const mor_motion *motion = &simulation->wall_motions[wall];
+    const int64_t n = points->n_points;
+    MOR_TRY(context, mor_wall_source_make(context, &simulation->wall_fillings[wall],
+                                          motion->n_rows > 0 && mor_motion_rotates(motion), points, found->shares,
+                                          &found->source, &found->numbers));
+    if (found->numbers != NULL) {
+        MOR_FREE(context, &found->shares); /* the source finds them again */
+    }
+    if (found->numbers == NULL && c->numerics.wall_normals == 1) {
+        MOR_TRY(context, MOR_NEW(context, &found->normals, 3 * n, "normals of a wall"));
+        MOR_TRY(context, MOR_NEW(context, &found->depths, n, "normals of a wall"));
+        mor_wall_source_find_normals(context, c, wall, n, points->positions, found->normals, found->depths);
     }
     return MOR_OK;
+}
+
+static mor_status add_wall(mor_context *context, mor_simulation *simulation, int w, const mor_lattice_points *points,
+                           wall_data *data)
+{
+    const mor_case *c = simulation->the_case;
+    MOR_TRY(context, find_wall_data(context, simulation, w, points, data));
+    mor_wall_request request = {.name = c->walls[w].name,
+                                .points = points->positions,
+                                .n_points = points->n_points,
+                                .point_volume =
+                                    c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing,
+                                .shares = data->shares,
+                                .normals = data->normals,
+                                .depths = data->depths,
+                                .source = data->numbers != NULL ? &data->source : NULL,
+                                .numbers = data->numbers,
+                                .dimension = c->dimension,
+                                .stress = (mor_wall_stress)c->numerics.wall_stress,
+                                .friction = (mor_wall_friction)c->walls[w].friction,
+                                .friction_coefficient = c->walls[w].friction_coefficient};
+    mor_matrix_apply(c->rotation, c->walls[w].velocity, request.velocity);
+    request.motion = simulation->wall_motions[w].n_rows > 0 ? &simulation->wall_motions[w] : NULL;
+    request.removed_at = c->walls[w].removed_at > 0.0 ? c->walls[w].removed_at : 0.0;
+    return mor_soil_add_wall(context, &simulation->soil, &request);
 }
 
 static mor_status add_walls(mor_context *context, mor_simulation *simulation)
 {
     const mor_case *c = simulation->the_case;
-    const double volume = c->dimension == 3 ? c->spacing * c->spacing * c->spacing : c->spacing * c->spacing;
+    MOR_TRY(context, MOR_NEW(context, &simulation->wall_fillings, c->n_walls, "how walls were filled"));
     for (int w = 0; w < c->n_walls; ++w) {
         mor_lattice_points points = {NULL, 0};
-        double *shares = NULL;
-        MOR_TRY(context, mor_simulation_fill_wall(context, c, w, MOR_CASE_WALL_LAYERS, &points, &shares));
-        mor_wall_request request = {.name = c->walls[w].name,
-                                    .points = points.positions,
-                                    .n_points = points.n_points,
-                                    .point_volume = volume,
-                                    .shares = shares,
-                                    .dimension = c->dimension,
-                                    .stress = (mor_wall_stress)c->numerics.wall_stress,
-                                    .friction = (mor_wall_friction)c->walls[w].friction,
-                                    .friction_coefficient = c->walls[w].friction_coefficient};
-        mor_matrix_apply(c->rotation, c->walls[w].velocity, request.velocity);
-        request.motion = simulation->wall_motions[w].n_rows > 0 ? &simulation->wall_motions[w] : NULL;
-        request.removed_at = c->walls[w].removed_at > 0.0 ? c->walls[w].removed_at : 0.0;
-        double *normals = NULL;
-        double *depths = NULL;
-        mor_status status =
-            c->numerics.wall_normals == 1 ? find_wall_normals(context, c, w, &points, &normals, &depths) : MOR_OK;
-        request.normals = normals;
-        request.depths = depths;
-        status = status == MOR_OK ? mor_soil_add_wall(context, &simulation->soil, &request) : status;
-        MOR_FREE(context, &normals);
-        MOR_FREE(context, &depths);
+        wall_data data = {.shares = NULL};
+        mor_status status = mor_simulation_fill_wall_how(context, c, w, MOR_CASE_WALL_LAYERS,
+                                                         &simulation->wall_fillings[w], &points, &data.shares);
+        status = status == MOR_OK ? add_wall(context, simulation, w, &points, &data) : status;
         mor_lattice_clear(context, &points);
-        MOR_FREE(context, &shares);
+        MOR_FREE(context, &data.shares);
+        MOR_FREE(context, &data.normals);
+        MOR_FREE(context, &data.depths);
+        MOR_FREE(context, &data.numbers);
         MOR_TRY(context, status);
     }
     return MOR_OK;
@@ -423,6 +446,9 @@ mor_status mor_simulation_init(mor_context *context, mor_simulation *simulation,
     if (status == MOR_OK) {
         status = mor_narrow_gaps_check(context, simulation);
     }
+    if (status == MOR_OK && simulation->has_soil) {
+        status = mor_soil_fill_walls(context, &simulation->soil);
+    }
     if (status == MOR_OK) {
         status = build_schedule(context, simulation);
     }
@@ -454,6 +480,7 @@ void mor_simulation_clear(mor_context *context, mor_simulation *simulation)
     mor_map_track_free(context, &simulation->maps);
     mor_simulation_bodies_clear(context, &simulation->bodies);
     mor_soil_clear(context, &simulation->soil);
+    MOR_FREE(context, &simulation->wall_fillings);
     MOR_FREE(context, &simulation->frictions);
     mor_simulation_clear_wall_motions(context, simulation->wall_motions);
     mor_material_destroy(context, &simulation->material);

@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_SCENE_BUILD_SIMULATION_BUILD_H
 
 #include "cases/driver/scene/simulation.h"
+#include "cases/driver/scene/wall/wall_source.h"
 #include "relaxation/relax/lattice.h"
 
 #include <stdatomic.h>
@@ -79,6 +80,12 @@ mor_status mor_simulation_set_frictions(mor_context *context, mor_simulation *si
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when the wall holds no particle; as mor_lattice_fill_cells. */
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
                                     mor_lattice_points *points, double **shares);
+
+/** Fills one wall as mor_simulation_fill_wall does, and tells how.
+ *  @param how      [out]     where excluded shapes are in it, it must stay where it is
+ *  Returns: as mor_simulation_fill_wall. */
+mor_status mor_simulation_fill_wall_how(mor_context *context, const mor_case *the_case, int wall, int layers,
+                                        mor_wall_filling *how, mor_lattice_points *points, double **shares);
 
 /** Fills one soil region of a case with particles, in the placed frame, where no body is.
  *  @param soil     [in]      index of the region

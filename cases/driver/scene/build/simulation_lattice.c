@@ -4,8 +4,8 @@
 #include "cases/driver/scene/build/simulation_build.h"
 
 #include "cases/driver/scene/build/memory_room.h"
-#include "cases/driver/scene/build/simulation_terrain.h"
 #include "cases/driver/scene/start/simulation_stage.h"
+#include "cases/driver/scene/wall/simulation_terrain.h"
 #include "cases/driver/scene/wall_period.h"
 #include "cases/driver/scene/wall_sweep.h"
 #include "core/base/math.h"
@@ -97,32 +97,31 @@ static mor_status annotate_error(mor_context *context, mor_status status, const 
 
 /* Fills a wall but for what lies in those earlier walls that are not `shown`. */
 static mor_status fill_wall(mor_context *context, const mor_wall_sweep *sweep, int layers, const bool *shown,
-                            mor_lattice_points *points, double **shares)
+                            mor_wall_filling *how, mor_lattice_points *points, double **shares)
 {
     const mor_case *c = sweep->the_case;
     const mor_case_wall *it = &c->walls[sweep->wall];
-    const mor_shape *earlier[MOR_CASE_WALLS_MAX];
     const filling wanted = {&it->place, it->name, MOR_MEMORY_ROOM_WALL, 0.0};
     const double margin = MOR_CASE_WALL_LAYERS * c->spacing;
-    mor_lattice_request request;
-    set_request(c, it->shape, &request);
-    request.depth = layers * c->spacing;
-    request.excluded = earlier;
+    mor_lattice_request *request = &how->request;
+    set_request(c, it->shape, request);
+    request->depth = layers * c->spacing;
+    request->excluded = how->excluded;
     for (int w = 0; w < sweep->wall; ++w) {
-        earlier[request.n_excluded] = c->walls[w].shape;
-        request.n_excluded += !shown[w];
+        how->excluded[request->n_excluded] = c->walls[w].shape;
+        request->n_excluded += !shown[w];
     }
-    mor_wall_sweep_widen(sweep, &request.domain);
+    mor_wall_sweep_widen(sweep, &request->domain);
     /* Walls carry soil up to the very edge of the domain, so they reach beyond it by their own thickness. */
     for (int a = 0; a < 3; ++a) {
-        request.domain.minimum[a] -= margin;
-        request.domain.maximum[a] += margin;
+        request->domain.minimum[a] -= margin;
+        request->domain.maximum[a] += margin;
         if (mor_case_is_periodic(c, a)) { /* what is beyond follows from what is between the faces */
-            request.domain.minimum[a] = c->domain_minimum[a];
-            request.domain.maximum[a] = c->domain_maximum[a];
+            request->domain.minimum[a] = c->domain_minimum[a];
+            request->domain.maximum[a] = c->domain_maximum[a];
         }
     }
-    return fill_shape(context, &wanted, &request, points, shares);
+    return fill_shape(context, &wanted, request, points, shares);
 }
 
 /* Leaves out points that lie in one of the walls shown and do not come out of it. */
@@ -146,7 +145,7 @@ static void drop_covered(const mor_wall_sweep *sweep, const bool *shown, mor_lat
 
 /* Fills a wall wherever it comes into the domain. Of two walls that lie in one another the later one has no points
  * there, unless the motion or a removal uncovers them. */
-static mor_status fill_swept_wall(mor_context *context, const mor_wall_sweep *sweep, int layers,
+static mor_status fill_swept_wall(mor_context *context, const mor_wall_sweep *sweep, int layers, mor_wall_filling *how,
                                   mor_lattice_points *points, double **shares)
 {
     bool shown[MOR_CASE_WALLS_MAX] = {false};
@@ -156,12 +155,12 @@ static mor_status fill_swept_wall(mor_context *context, const mor_wall_sweep *sw
         is_any = is_any || shown[w];
     }
     if (is_any) {
-        MOR_TRY(context, fill_wall(context, sweep, layers, shown, points, shares));
+        MOR_TRY(context, fill_wall(context, sweep, layers, shown, how, points, shares));
         is_any = mor_wall_sweep_find_shown(sweep, points->positions, points->n_points, shown);
         mor_lattice_clear(context, points);
         MOR_FREE(context, shares);
     }
-    MOR_TRY(context, fill_wall(context, sweep, layers, shown, points, shares));
+    MOR_TRY(context, fill_wall(context, sweep, layers, shown, how, points, shares));
     if (is_any) {
         drop_covered(sweep, shown, points, *shares);
     }
@@ -171,15 +170,25 @@ static mor_status fill_swept_wall(mor_context *context, const mor_wall_sweep *sw
 mor_status mor_simulation_fill_wall(mor_context *context, const mor_case *the_case, int wall, int layers,
                                     mor_lattice_points *points, double **shares)
 {
+    mor_wall_filling how;
+    return mor_simulation_fill_wall_how(context, the_case, wall, layers, &how, points, shares);
+}
+
+mor_status mor_simulation_fill_wall_how(mor_context *context, const mor_case *the_case, int wall, int layers,
+                                        mor_wall_filling *how, mor_lattice_points *points, double **shares)
+{
     const mor_case_wall *it = &the_case->walls[wall];
     mor_status status = MOR_OK;
     *shares = NULL;
+    how->the_case = the_case;
+    how->wall = wall;
     if (it->outline.kind == MOR_CASE_SHAPE_TERRAIN) {
+        mor_simulation_find_columns(the_case, layers, &how->columns);
         status = mor_simulation_fill_terrain(context, the_case, wall, layers, points);
     } else {
         mor_wall_sweep sweep;
         status = mor_wall_sweep_init(context, &sweep, the_case, wall);
-        status = status == MOR_OK ? fill_swept_wall(context, &sweep, layers, points, shares) : status;
+        status = status == MOR_OK ? fill_swept_wall(context, &sweep, layers, how, points, shares) : status;
         mor_wall_sweep_clear(context, &sweep);
     }
     MOR_TRY(context, annotate_error(context, status, &it->place, it->name));

@@ -302,6 +302,7 @@ static mor_status begin_settling(mor_context *context, mor_simulation *simulatio
     scheme->gravity_ramp = it->means.gravity_ramp;
     scheme->gravity_ramp_form = 1;
     soil->is_relaxing = it->is_relaxed;
+    soil->is_settling = true;
     soil->settings.removes_outflow = false; /* what is to come to rest may not leave */
     for (int w = 0; w < soil->n_walls; ++w) {
         memcpy(kept->velocities[w], soil->walls[w].velocity, sizeof kept->velocities[w]);
@@ -338,6 +339,7 @@ static mor_status end_settling(mor_context *context, mor_simulation *simulation,
     contact->time = 0.0;
     soil->settings.scheme = kept->scheme;
     soil->is_relaxing = false;
+    soil->is_settling = false;
     soil->settings.removes_outflow = simulation->the_case->outflow == 1;
     memset(soil->wall_impulse, 0, sizeof soil->wall_impulse); /* forces stay those of the last step, as of bodies */
     MOR_TRY(context, mor_soil_init_state(context, soil));

@@ -356,11 +356,10 @@ static void add_walls(gap_scene *s, const mor_simulation *simulation)
                       .kind = "wall",
                       .name = c->walls[w].name,
                       .place = &c->walls[w].place,
-                      .points = contact->boundary->records + MOR_BOUNDARY_POSITION,
-                      .n_points = contact->n_points,
-                      .stride = MOR_BOUNDARY_RECORD,
+                      .n_points = mor_soil_contact_points(contact),
                       .is_wall = true,
                       .is_terrain = c->walls[w].outline.kind == MOR_CASE_SHAPE_TERRAIN};
+        it->points = mor_soil_contact_start(contact, &it->stride);
         memcpy(it->rotation, c->rotation, sizeof it->rotation);
         memcpy(it->translation, c->translation, sizeof it->translation);
         find_box(it);

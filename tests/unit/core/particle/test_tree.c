@@ -262,6 +262,43 @@ static void empty_tree_is_accepted(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+/* Also where coordinates are equal, which are told apart by place. */
+static void order_by_blocks_and_then_within_each_is_that_of_all(void **state)
+{
+    (void)state;
+    enum { COUNT = 1237, BLOCK = 5 };
+    double points[3 * COUNT];
+    int32_t whole[COUNT], parts[COUNT], within[COUNT];
+    for (int coarse = 0; coarse < 2; ++coarse) {
+        fill_kind(CLOUD_RANDOM, COUNT, points);
+        for (int k = 0; k < 3 * COUNT && coarse; ++k) {
+            points[k] = floor(6.0 * points[k]);
+        }
+        const mor_tree_points all = {points, NULL, 3, COUNT};
+        const int64_t n_clusters = (COUNT + MOR_CLUSTER - 1) / MOR_CLUSTER;
+        mor_tree_order(points, 3, COUNT, whole);
+        mor_tree_order_blocks(&all, BLOCK, parts);
+        int64_t begin = 0;
+        while (begin < n_clusters) {
+            const int64_t end = mor_tree_block_end(n_clusters, BLOCK, begin);
+            const int64_t first = begin * MOR_CLUSTER;
+            const int64_t n = (end * MOR_CLUSTER < COUNT ? end * MOR_CLUSTER : COUNT) - first;
+            double own[3 * BLOCK * MOR_CLUSTER];
+            int64_t numbers[BLOCK * MOR_CLUSTER];
+            assert_true(end > begin && end - begin <= BLOCK);
+            for (int64_t i = 0; i < n; ++i) {
+                memcpy(own + 3 * i, points + 3 * (int64_t)parts[first + i], 3 * sizeof *own);
+                numbers[i] = parts[first + i];
+            }
+            mor_tree_order_block(&(mor_tree_points){own, numbers, 3, n}, within);
+            for (int64_t i = 0; i < n; ++i) {
+                assert_int_equal(numbers[within[i]], whole[first + i]);
+            }
+            begin = end;
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -276,6 +313,7 @@ int main(void)
         cmocka_unit_test(every_box_is_the_smallest_around_its_points),
         cmocka_unit_test(boxes_follow_points_that_move),
         cmocka_unit_test(empty_tree_is_accepted),
+        cmocka_unit_test(order_by_blocks_and_then_within_each_is_that_of_all),
     };
     return CLOUD_RUN(tests);
 }

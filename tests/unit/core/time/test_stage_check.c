@@ -49,6 +49,7 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     scene->settings.scheme.density_reinitialization = 1;
     scene->settings.scheme.sort_interval = 1;
     scene->settings.gravity[1] = -9.81;
+    scene->settings.released[1] = stage != NULL && (strcmp(stage, "hold") == 0 || strcmp(stage, "stand") == 0);
     scene->settings.n_regions = 2; /* of one material: all particles are of the first */
     rock_scene_add_soil(scene, (const double[3]){0.005, 0.005, 0.0}, sides);
     rock_scene_build(scene);

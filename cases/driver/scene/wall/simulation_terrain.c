@@ -1,11 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/scene/build/simulation_terrain.h"
+#include "cases/driver/scene/wall/simulation_terrain.h"
 
 #include "cases/driver/scene/simulation.h"
 #include "core/base/memory.h"
 #include "core/base/random.h"
-#include "relaxation/terrain/terrain.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,19 +41,26 @@ static void leave_out(const mor_shape *shape, mor_lattice_points *points)
     points->n_points = n_kept;
 }
 
+void mor_simulation_find_columns(const mor_case *the_case, int layers, mor_terrain_columns *columns)
+{
+    const double depth = layers * the_case->spacing;
+    *columns = (mor_terrain_columns){.spacing = the_case->spacing,
+                                     .origin = {the_case->lattice_origin[0], the_case->lattice_origin[1]}};
+    columns->layers = layers;
+    for (int a = 0; a < 3; ++a) {
+        /* As other walls, ground reaches beyond the domain by its own thickness. */
+        columns->bounds.minimum[a] = the_case->domain_minimum[a] - depth;
+        columns->bounds.maximum[a] = the_case->domain_maximum[a] + depth;
+    }
+}
+
 mor_status mor_simulation_fill_terrain(mor_context *context, const mor_case *the_case, int wall, int layers,
                                        mor_lattice_points *points)
 {
-    const double depth = layers * the_case->spacing;
-    mor_bounds bounds;
-    for (int a = 0; a < 3; ++a) {
-        /* As other walls, ground reaches beyond the domain by its own thickness. */
-        bounds.minimum[a] = the_case->domain_minimum[a] - depth;
-        bounds.maximum[a] = the_case->domain_maximum[a] + depth;
-    }
-    MOR_TRY(context,
-            mor_terrain_fill(context, mor_terrain_view(the_case->walls[wall].shape), the_case->spacing,
-                             the_case->lattice_origin, layers, &bounds, &points->positions, &points->n_points));
+    mor_terrain_columns columns;
+    mor_simulation_find_columns(the_case, layers, &columns);
+    MOR_TRY(context, mor_terrain_fill(context, mor_terrain_view(the_case->walls[wall].shape), columns.spacing,
+                                      columns.origin, layers, &columns.bounds, &points->positions, &points->n_points));
     for (int w = 0; w < wall; ++w) {
         leave_out(the_case->walls[w].shape, points);
     }

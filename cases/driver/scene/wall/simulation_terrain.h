@@ -1,14 +1,20 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SCENE_BUILD_SIMULATION_TERRAIN_H
-#define MOR_CASES_DRIVER_SCENE_BUILD_SIMULATION_TERRAIN_H
+#ifndef MOR_CASES_DRIVER_SCENE_WALL_SIMULATION_TERRAIN_H
+#define MOR_CASES_DRIVER_SCENE_WALL_SIMULATION_TERRAIN_H
 
 #include "cases/driver/case/case.h"
 #include "relaxation/relax/lattice.h"
+#include "relaxation/terrain/terrain.h"
 
 /** @file
  *  Particles that follow the ground: walls of terrain and soil of releases. Everything else is filled from the lattice
  *  (simulation_build.c). */
+
+/** What a wall of ground is filled with.
+ *  @param layers   [in]      layers of particles, >= 1
+ *  @param columns  [out]     all of it */
+void mor_simulation_find_columns(const mor_case *the_case, int layers, mor_terrain_columns *columns);
 
 /** Fills a wall whose shape is a terrain, in the placed frame. Places inside earlier walls are left out.
  *  @param wall     [in]      index of the wall
