@@ -345,6 +345,24 @@ static void a_resumed_session_has_the_same_bits(void **state)
     mor_session_free(&resumed);
 }
 
+static void threads_change_no_bit(void **state)
+{
+    char text[TEXT_BYTES];
+    uint64_t hashes[2];
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        mor_session *session = open_session();
+        assert_int_equal(mor_session_set_threads(session, 1 + k), MOR_OK);
+        assert_int_equal(mor_session_load_text(session, "fields.cfg", column(RANDOM, text)), MOR_OK);
+        assert_int_equal(mor_session_build(session), MOR_OK);
+        assert_int_equal(mor_session_settle(session), MOR_OK);
+        take_steps(session, STEPS);
+        hashes[k] = mor_session_state_hash(session);
+        mor_session_free(&session);
+    }
+    assert_true(hashes[0] == hashes[1]);
+}
+
 static void run(run_folder *folder, const char *name, const char *text)
 {
     char path[MOR_PATH_BYTES];
@@ -505,6 +523,7 @@ int main(void)
         cmocka_unit_test(values_belong_to_places_whatever_spacing_and_order),
         cmocka_unit_test(the_particles_have_the_statistics_prescribed),
         cmocka_unit_test_setup_teardown(clipped_values_are_counted_and_reported, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test_setup_teardown(a_resumed_session_has_the_same_bits, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_next_stage_keeps_what_particles_are_made_of, run_folder_setup,
                                         run_folder_teardown),
