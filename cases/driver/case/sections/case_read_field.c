@@ -111,7 +111,7 @@ static mor_status read_numbers(const mor_case_reader *reader, const mor_case_nod
 static mor_status check_formula(const mor_case_reader *reader, const mor_case_node *node, const mor_case_field *field)
 {
     mor_formula *formula = NULL;
-    if (field->formula[0] == '\0') {
+    if (mor_case_node_find(node, "formula") == NULL) {
         return MOR_OK;
     }
     const mor_status status = mor_formula_new(reader->context, field->formula, &formula);
@@ -130,7 +130,7 @@ static mor_status check_formula(const mor_case_reader *reader, const mor_case_no
 static mor_status check_keys(const mor_case_reader *reader, const mor_case_node *node, const mor_case_field *field)
 {
     const bool is_random = field->distribution != MOR_CASE_DISTRIBUTION_NONE;
-    const bool is_correlated = is_random && field->correlated_with[0] != '\0';
+    const bool is_correlated = is_random && mor_case_node_find(node, "correlated_with") != NULL;
     const bool has_deviation = mor_case_node_find(node, "standard_deviation") != NULL;
     const struct {
         const char *key, *condition;
@@ -169,7 +169,7 @@ static mor_status find_other(const mor_case_reader *reader, const mor_case_node 
     const char *words[MOR_CASE_FIELDS_MAX];
     int n_words = 0;
     field->other = -1;
-    if (field->correlated_with[0] == '\0') {
+    if (mor_case_node_find(node, "correlated_with") == NULL) {
         return MOR_OK;
     }
     for (const mor_case_field *it = soil->fields; it < field; ++it) {
