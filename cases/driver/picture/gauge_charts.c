@@ -8,6 +8,7 @@
 #include "cases/driver/picture/gauge_map_picture.h"
 #include "cases/driver/picture/view/picture.h"
 #include "core/base/memory.h"
+#include "core/io/summary.h"
 #include "core/io/table.h"
 
 #include <math.h>
@@ -42,16 +43,57 @@ static int64_t copy_column(const mor_table_data *data, int column, double *x, do
     return n;
 }
 
+/* The largest filtered normal force and its time; by the rows it is known to have been since the row before only, the
+ * summary of the run knows its time. Returns whether it is the latter. */
+static bool find_peak(const mor_table_data *data, int column, const char *folder, const char *gauge, double *peak)
+{
+    mor_context context; /* of its own: a summary without gauges, of an earlier version, is no error */
+    char path[MOR_PATH_BYTES];
+    char name[NAME_BYTES];
+    char unit[MOR_TICKS_TEXT_BYTES];
+    double exact[2] = {NAN, NAN};
+    for (int64_t row = 0; row < data->n_rows; ++row) {
+        const double value = data->values[row * data->n_columns + column];
+        if (value > peak[1]) {
+            peak[0] = data->values[row * data->n_columns];
+            peak[1] = value;
+        }
+    }
+    mor_context_init(&context);
+    if (mor_durable_file_join(&context, path, folder, MOR_SUMMARY_FILE) != MOR_OK) {
+        return false;
+    }
+    snprintf(name, sizeof name, "gauge.%s.time_of_peak", gauge);
+    mor_status status = mor_summary_read_result(&context, path, name, &exact[0], unit, sizeof unit);
+    snprintf(name, sizeof name, "gauge.%s.peak_normal", gauge);
+    if (status == MOR_OK) {
+        status = mor_summary_read_result(&context, path, name, &exact[1], unit, sizeof unit);
+    }
+    if (status != MOR_OK || !isfinite(exact[0]) || !(exact[1] >= peak[1])) {
+        return false; /* rows of a run that goes on may hold more */
+    }
+    memcpy(peak, exact, sizeof exact);
+    return true;
+}
+
 /* Says what the mark on the largest filtered normal force is. */
-static void name_peak(const char *unit, const double *peak, char *text)
+static void name_peak(const char *unit, const double *peak, bool is_exact, char *text)
 {
     char shown[MOR_TICKS_TEXT_BYTES];
     const double factor = mor_ticks_prefix(unit, fabs(peak[1]), shown);
-    snprintf(text, TEXT_BYTES, "largest filtered normal force %.4g %s, by %.4g s", factor * peak[1], shown, peak[0]);
+    snprintf(text, TEXT_BYTES, "largest filtered normal force %.4g %s, %s %.4g s", factor * peak[1], shown,
+             is_exact ? "at" : "by", peak[0]);
+}
+
+static mor_status find_chart(mor_context *context, const mor_case *the_case, int gauge, const char *folder, char *path)
+{
+    char name[NAME_BYTES];
+    snprintf(name, sizeof name, "images/gauge_%s.png", the_case->gauges[gauge].name);
+    return mor_durable_file_join(context, path, folder, name);
 }
 
 static mor_status draw_forces(mor_context *context, const mor_table_data *data, const mor_case *the_case, int gauge,
-                              double *room, const char *path)
+                              double *room, const char *folder)
 {
     char filter[MOR_GAUGE_FILTER_BYTES];
     char note[TEXT_BYTES];
@@ -72,21 +114,15 @@ static mor_status draw_forces(mor_context *context, const mor_table_data *data, 
                 .name = curves[k].name, .x = x, .y = y, .n_points = n_points, .style = curves[k].style};
         }
     }
-    for (int64_t row = 0; row < data->n_rows; ++row) {
-        const double value = data->values[row * data->n_columns + first + MOR_GAUGE_COLUMN_LARGEST];
-        if (value > peak[1]) {
-            peak[0] = data->values[row * data->n_columns];
-            peak[1] = value;
-        }
-    }
+    const bool is_exact = find_peak(data, first + MOR_GAUGE_COLUMN_LARGEST, folder, the_case->gauges[gauge].name, peak);
     if (n == 0 || !isfinite(peak[1])) {
         return MOR_OK; /* no step was taken */
     }
-    name_peak(unit, peak, peak_name);
+    name_peak(unit, peak, is_exact, peak_name);
     series[n++] = (mor_chart_series){
         .name = peak_name, .x = &peak[0], .y = &peak[1], .n_points = 1, .style = MOR_CHART_POINTS, .color_of = 1};
     mor_gauge_describe_filter(&the_case->gauges[gauge], filter);
-    snprintf(note, sizeof note, "Filter: %s. Dot: of every step, at the row after it.", filter);
+    snprintf(note, sizeof note, "Filter: %s. Dot: of every step%s.", filter, is_exact ? "" : ", at the row after it");
     snprintf(title, sizeof title, "%.100s: gauge %s", the_case->title, the_case->gauges[gauge].name);
     const mor_chart chart = {.title = title,
                              .x_name = "time",
@@ -97,6 +133,8 @@ static mor_status draw_forces(mor_context *context, const mor_table_data *data, 
                              .n_series = n,
                              .notes = notes,
                              .n_notes = 1};
+    char path[MOR_PATH_BYTES];
+    MOR_TRY(context, find_chart(context, the_case, gauge, folder, path));
     return mor_picture_chart(context, &chart, path);
 }
 
@@ -106,9 +144,8 @@ static mor_status draw_gauge(mor_context *context, const mor_table_data *data, c
     char path[MOR_PATH_BYTES];
     char map[MOR_PATH_BYTES];
     char name[NAME_BYTES];
-    snprintf(name, sizeof name, "images/gauge_%s.png", the_case->gauges[gauge].name);
-    MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
-    MOR_TRY(context, draw_forces(context, data, the_case, gauge, room, path));
+    MOR_TRY(context, find_chart(context, the_case, gauge, folder, path));
+    MOR_TRY(context, draw_forces(context, data, the_case, gauge, room, folder));
     if (access(path, F_OK) == 0) {
         fprintf(output, "chart: %s\n", path);
     }
