@@ -384,8 +384,8 @@ static void layer_slides_with_what_friction_leaves_of_gravity(void **state)
     scene_free(it);
 }
 
-/* Undrained soil between rough plates, of which one goes round the domain, carries its strength, 1 kPa, and passes it on
- * from plate to plate. */
+/* Undrained soil between rough plates, of which one goes round the domain, carries its strength, 1 kPa, and passes it
+ * on from plate to plate. */
 static void soil_between_plates_carries_its_strength(void **state)
 {
     (void)state;
