@@ -39,5 +39,6 @@ compare "soil in plane strain" cases/column-2d/case.cfg --set 'spacing=8 mm' --s
 compare "several soils" cases/layered-slope/case.cfg --set 'spacing=0.3 m' --set 'end=0.1 s'
 compare "options for soil at rest" cases/layered-slope/case.cfg --set 'spacing=0.3 m' --set 'end=0.1 s' \
     --set numerics.scheme=moraine
+compare "periodic domain" cases/infinite-slope/case-slides-periodic.cfg --set numerics.gravity_ramp=0 --set 'end=0.01 s'
 compare "soil, walls and elastic bodies" cases/srm-slope/case.cfg --set 'end=2 ms'
 compare "soil, walls and rigid rocks" cases/blocks/case.cfg --set 'end=1 ms'

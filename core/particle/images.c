@@ -270,7 +270,7 @@ void mor_images_sort(mor_context *context, const mor_images *images, mor_relatio
 
 void mor_images_follow(mor_context *context, const mor_images *images, double *data, int width, int place)
 {
-    MOR_PARALLEL_FOR (context, k, images->n, MOR_BLOCK) {
+    MOR_PARALLEL_FOR (context, k, data != NULL ? images->n : 0, MOR_BLOCK) {
         double *image = data + (images->first + k) * width;
         memcpy(image, data + (int64_t)images->owner[k] * width, (size_t)width * sizeof *image);
         for (int a = 0; a < 3 && place >= 0; ++a) {

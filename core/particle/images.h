@@ -45,6 +45,15 @@ void mor_period_init(mor_period *period, const double *minimum, const double *ma
  *  @param x [in]  unit m; below 2^52 quanta */
 double mor_period_round(const mor_period *period, double x);
 
+/** Returns a displacement along an axis, rounded where the axis is periodic, unit m.
+ *  @param period [in]  NULL: none
+ *  @param axis   [in]  0 to 2
+ *  @param way    [in]  unit m */
+static inline double mor_period_round_way(const mor_period *period, int axis, double way)
+{
+    return period != NULL && period->length[axis] > 0.0 ? mor_period_round(period, way) : way;
+}
+
 /** Rounds the coordinates of places along periodic axes.
  *  @param n      [in]      number of places
  *  @param places [in,out]  shape [n, stride]; x, y, z first, unit m
@@ -127,7 +136,7 @@ static inline int64_t mor_images_owner(const mor_images *images, int64_t entry)
 }
 
 /** Gives images what their owners have; nothing without images.
- *  @param data  [in,out]  shape [first + n, width], any unit; images follow the points
+ *  @param data  [in,out]  shape [first + n, width], any unit; images follow the points; NULL: nothing
  *  @param width [in]      numbers each
  *  @param place [in]      which of them begins the place, which is shifted; -1: none */
 void mor_images_follow(mor_context *context, const mor_images *images, double *data, int width, int place);

@@ -62,9 +62,7 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
 void mor_soil_follow_records(mor_context *context, const mor_soil *soil)
 {
     mor_images_follow(context, &soil->images, soil->records, MOR_RECORD_SIZE, MOR_RECORD_POSITION);
-    if (soil->extra != NULL) {
-        mor_images_follow(context, &soil->images, soil->extra, MOR_EXTRA_SIZE, -1);
-    }
+    mor_images_follow(context, &soil->images, soil->extra, MOR_EXTRA_SIZE, -1);
 }
 
 void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *place)

@@ -41,8 +41,7 @@ static void drift_half(mor_context *context, mor_soil *soil, mor_view *view, dou
             position[k] += half_step * velocity[k];
         }
         for (int64_t k = 3 * first; k < 3 * last && soil->period.is_any; ++k) {
-            const double way = half_step * velocity[k];
-            position[k] += soil->period.length[k % 3] > 0.0 ? mor_period_round(&soil->period, way) : way;
+            position[k] += mor_period_round_way(&soil->period, (int)(k % 3), half_step * velocity[k]);
         }
         for (int64_t i = first; i < last; ++i) {
             density[i] += half_step * rate[i];
@@ -83,11 +82,9 @@ static void sort_particles(mor_soil *soil, mor_view *view)
 void mor_soil_sort(mor_context *context, mor_soil *soil)
 {
     mor_view view = mor_view_open(&soil->set, NULL);
-    if (soil->period.is_any) {
-        double *position = mor_view_write(&view, MOR_FIELD_POSITION);
-        mor_period_round_places(&soil->period, soil->set.n_particles, 3, position);
-        mor_images_put_inside(context, &soil->images, soil->set.n_particles, position, NULL);
-    }
+    double *position = mor_view_write(&view, MOR_FIELD_POSITION);
+    mor_period_round_places(&soil->period, soil->set.n_particles, 3, position);
+    mor_images_put_inside(context, &soil->images, soil->set.n_particles, position, NULL);
     sort_particles(soil, &view);
 }
 

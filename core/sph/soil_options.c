@@ -204,10 +204,7 @@ static void regularize_block(void *job, int64_t first, int64_t last, double *val
         double translation[3];
         for (int a = 0; a < 3; ++a) {
             shift[a] = it->shifting * speed * sums[3 + a];
-            translation[a] = it->xsph * sums[a] + shift[a];
-            if (it->period != NULL && it->period->length[a] > 0.0) {
-                translation[a] = mor_period_round(it->period, translation[a]);
-            }
+            translation[a] = mor_period_round_way(it->period, a, it->xsph * sums[a] + shift[a]);
             it->position[3 * i + a] += translation[a];
         }
         for (int a = 0; a < 3; ++a) {
