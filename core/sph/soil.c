@@ -183,37 +183,13 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
 }
 
-/* Sums over the lattice the soil starts from: of V W, and of V (r_j - r_i) (x) grad_i W, one diagonal entry. */
-static void sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment)
-{
-    const double spacing = settings->spacing;
-    const int reach = (int)(MOR_KERNEL_SUPPORT * smoothing_length / spacing) + 1;
-    const int reach_z = settings->dimension == 3 ? reach : 0;
-    *value = 0.0;
-    *moment = 0.0;
-    for (int x = -reach; x <= reach; ++x) {
-        for (int y = -reach; y <= reach; ++y) {
-            for (int z = -reach_z; z <= reach_z; ++z) {
-                const double r = spacing * sqrt((double)(x * x + y * y + z * z));
-                *value += mor_kernel_value(r, smoothing_length, settings->dimension);
-                *moment -= r > 0.0 ? mor_kernel_derivative(r, smoothing_length, settings->dimension) * spacing *
-                                         spacing * (double)(x * x) / r
-                                   : 0.0;
-            }
-        }
-    }
-    const double volume = settings->dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
-    *value *= volume;
-    *moment *= volume;
-}
-
 static void set_constants(mor_soil *soil)
 {
     const mor_soil_settings *s = &soil->settings;
     const double h = s->scheme.smoothing_ratio * s->spacing;
     soil->smoothing_length = h;
     double moment = 0.0;
-    sum_lattice(s, h, &soil->lattice_sum, &moment);
+    mor_soil_sum_lattice(s, h, &soil->lattice_sum, &moment);
     soil->lattice_moment = moment;
     soil->constants = (mor_pair_constants){
         .dimension = s->dimension,
@@ -253,33 +229,6 @@ static void set_constants(mor_soil *soil)
     }
 }
 
-/* The wave speed of an unstressed soil; it sets the step and the impedance, eq. 22. */
-static mor_status find_sound_speed(mor_context *context, const mor_soil *soil, int index, mor_soil_kind *kind)
-{
-    const double stress[6] = {0.0};
-    double speed = 0.0;
-    double values[MOR_MATERIAL_STATES_MAX][9] = {{0.0}};
-    double *state[MOR_MATERIAL_STATES_MAX];
-    const double *state_in[MOR_MATERIAL_STATES_MAX];
-    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
-        state[k] = values[k];
-        state_in[k] = values[k];
-    }
-    values[0][0] = index; /* of a composite; any other law writes its own */
-    mor_batch batch = {
-        .n = 1, .density = &kind->reference_density, .stress_in = stress, .state_in = state_in, .state_out = state};
-    const mor_material_operations *operations = &soil->material->operations;
-    mor_status status = operations->init_state(soil->material, &batch);
-    if (status == MOR_OK) {
-        status = operations->wave_speed(soil->material, &batch, &speed);
-    }
-    MOR_CHECK(context, status == MOR_OK && speed > 0.0 && isfinite(speed), MOR_ERROR_NUMERIC,
-              "material '%s' gives a wave speed of %g m/s; it must be positive and finite",
-              soil->material->material->name, speed);
-    kind->sound_speed = speed;
-    return MOR_OK;
-}
-
 static mor_status set_kinds(mor_context *context, mor_soil *soil)
 {
     const mor_soil_settings *s = &soil->settings;
@@ -291,7 +240,7 @@ static mor_status set_kinds(mor_context *context, mor_soil *soil)
     soil->kinds[0] = (mor_soil_kind){.reference_density = s->reference_density, .lateral_ratio = s->lateral_ratio};
     for (int k = 0; k < soil->n_kinds; ++k) {
         soil->kinds[k] = has_several ? s->kinds[k] : soil->kinds[k];
-        const mor_status status = find_sound_speed(context, soil, k, &soil->kinds[k]);
+        const mor_status status = mor_soil_kind_find_speed(context, soil->material, k, &soil->kinds[k]);
         MOR_TRY(context, status == MOR_OK ? status : mor_context_name_item(context, status, k));
         soil->sound_speed = fmax(soil->sound_speed, soil->kinds[k].sound_speed);
     }

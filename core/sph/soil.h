@@ -4,14 +4,13 @@
 #define MOR_CORE_SPH_SOIL_H
 
 #include "core/base/reduce.h"
-#include "core/geometry/domain.h"
 #include "core/material/composite.h"
 #include "core/material/kit/material.h"
 #include "core/particle/images.h"
 #include "core/particle/set.h"
-#include "core/scheme/scheme.h"
 #include "core/sph/boundary/soil_contact.h"
 #include "core/sph/lanes/soil_lanes.h"
+#include "core/sph/settings/soil_settings.h"
 #include "core/sph/sleep/hold.h"
 #include "core/sph/soil_energy.h"
 #include "core/time/stepper.h"
@@ -23,38 +22,6 @@
  *  Theory: Zhang et al. (2024) eqs. 13-35, 51, 54-56; docs/theory/soil.md. */
 
 enum { MOR_SOIL_WALLS_MAX = 64, MOR_SOIL_BOUNDARIES_MAX = 16 };
-
-/** What the scheme takes of one of several soils. */
-typedef struct mor_soil_kind {
-    double reference_density; /* rho_0, kg/m3 */
-    double lateral_ratio;     /* K0 of the stress-diffusion operator, 1 */
-    int same_as;              /* first of the soils with the same material, which it is one soil with */
-    double sound_speed;       /* c0, m/s; found by mor_soil_init */
-} mor_soil_kind;
-
-/** What a soil is built from, beside its material. Plain data. */
-typedef struct mor_soil_settings {
-    mor_scheme scheme;                 /* settings of the scheme */
-    int dimension;                     /* 2 (plane strain in x, y) or 3 */
-    double spacing;                    /* initial particle spacing, m */
-    double lateral_ratio;              /* K0 of the stress-diffusion operator, 1; of one soil */
-    double gravity[3];                 /* m/s2 */
-    double domain_minimum[3];          /* m, before the placement */
-    double domain_maximum[3];          /* likewise */
-    bool is_periodic[3];               /* space repeats itself along the axis, by the extent of the domain */
-    const mor_domain_frame *placement; /* of the domain; borrowed; NULL: neither rotated nor translated */
-    mor_guard guard;                   /* around updates of a material whose code may crash; NULL: none */
-    bool removes_outflow;              /* what leaves the domain is removed; else it stops the run */
-    double reference_density;          /* rho_0, kg/m3; of one soil */
-    const mor_soil_kind *kinds;        /* shape [n_kinds]; of the parts of a composite, borrowed by mor_soil_init; NULL:
-                                          one soil, of the two above */
-    int n_kinds;
-    int n_regions; /* parts that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
-                      materials differ; of a composite the number of its parts; 0 or 1: one */
-    double
-        released[MOR_HOLD_REGIONS_MAX]; /* shape [regions]; time until which each stands as it was placed, s; 0: it is
-                                              released from the start */
-} mor_soil_settings;
 
 /** What has left the domain since the start. */
 enum {

@@ -3,10 +3,10 @@
 /* Stages that sum over neighbors and walls, and the material's update. */
 #include "core/sph/soil_internal.h"
 
-#include "core/base/eigen.h"
 #include "core/base/parallel.h"
 #include "core/material/checked.h"
 #include "core/sph/boundary/soil_wall.h"
+#include "core/sph/lanes/artificial_stress.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -107,42 +107,6 @@ mor_status mor_soil_sum_walls(mor_context *context, void *owner, mor_view *view,
 /* Strain within the memory of flow, the rate of shear times its time, from which on soil flows, 1. */
 #define FLOWING 0.05
 
-/* Whether all principal stresses are compressive: the leading minors of minus the stress are positive. In most of the
- * soil, most of the time, this spares the eigenvalues. */
-static bool is_compressed(const double *s)
-{
-    const double plane = s[MOR_XX] * s[MOR_YY] - s[MOR_XY] * s[MOR_XY];
-    const double determinant = s[MOR_ZZ] * plane + s[MOR_XY] * s[MOR_YZ] * s[MOR_ZX] * 2.0 -
-                               s[MOR_XX] * s[MOR_YZ] * s[MOR_YZ] - s[MOR_YY] * s[MOR_ZX] * s[MOR_ZX];
-    return s[MOR_XX] < 0.0 && plane > 0.0 && determinant < 0.0;
-}
-
-/* Principal tensions answered by -epsilon times themselves, eqs. 28-31, in two and three dimensions. */
-static void find_artificial(const double *stress, double factor, double *artificial)
-{
-    double values[3];
-    double directions[9];
-    for (int a = 0; a < 6; ++a) {
-        artificial[a] = 0.0;
-    }
-    if (is_compressed(stress)) {
-        return;
-    }
-    mor_symmetric_eigen(stress, values, directions);
-    for (int k = 0; k < 3; ++k) {
-        if (values[k] > 0.0) {
-            const double *d = directions + k;
-            const double answer = -factor * values[k];
-            artificial[MOR_XX] += answer * d[0] * d[0];
-            artificial[MOR_YY] += answer * d[3] * d[3];
-            artificial[MOR_ZZ] += answer * d[6] * d[6];
-            artificial[MOR_XY] += answer * d[0] * d[3];
-            artificial[MOR_YZ] += answer * d[3] * d[6];
-            artificial[MOR_ZX] += answer * d[6] * d[0];
-        }
-    }
-}
-
 mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
@@ -153,7 +117,8 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
     double *artificial = mor_view_write(view, MOR_FIELD_ARTIFICIAL_STRESS);
     MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
         const double share = flow != NULL ? fmin(flow[i] / FLOWING, 1.0) : 1.0;
-        find_artificial(stress + 6 * i, share * soil->settings.scheme.artificial_stress_factor, artificial + 6 * i);
+        mor_artificial_stress_find(stress + 6 * i, share * soil->settings.scheme.artificial_stress_factor,
+                                   artificial + 6 * i);
     }
     return MOR_OK;
 }

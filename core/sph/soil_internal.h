@@ -59,11 +59,6 @@ bool mor_soil_has_quiet(const void *owner);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_particles);
 
-/** Checks that soil which begins to fall does not fall asleep before it moves.
- *  @param settings [in]  of the soil
- *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
-mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings);
-
 /** Finds which blocks see one another and what moves beside them, after each build of the lists.
  *  @param position [in]  shape [n_particles, 3], unit m
  *  @param reach    [in]  of the lists, unit m

@@ -4,7 +4,6 @@
  * and shifting; and the kernel sums of the first two. */
 #include "core/sph/soil_internal.h"
 
-#include "core/base/eigen.h"
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 

@@ -12,9 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Times of a fall up to the speed of soil at rest that soil must have been quiet at least. */
-enum { FALLS = 4 };
-
 bool mor_soil_may_sleep(const void *owner)
 {
     return ((const mor_soil *)owner)->sleep.states != NULL;
@@ -116,19 +113,6 @@ static limits find_limits(const mor_soil *soil)
     const double gravity = mor_vector_length(soil->settings.gravity);
     return (limits){scheme->sleep_displacement * soil->settings.spacing,
                     scheme->sleep_speed * sqrt(gravity * soil->settings.spacing)};
-}
-
-mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings)
-{
-    const mor_scheme *scheme = &settings->scheme;
-    const double gravity = mor_vector_length(settings->gravity);
-    const double least = gravity > 0.0 ? FALLS * scheme->sleep_speed * sqrt(settings->spacing / gravity) : 0.0;
-    MOR_CHECK(
-        context, scheme->sleep_after == 0.0 || scheme->sleep_after >= least, MOR_ERROR_CONFIG,
-        "found numerics.sleep_after = %g s; allowed: 0, or at least %.3g s, %d times as long as soil that begins to "
-        "fall stays slower than sleep_speed: it would fall asleep in the air; give a longer time",
-        scheme->sleep_after, least, FALLS);
-    return MOR_OK;
 }
 
 mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil, const double *position, double reach)

@@ -86,10 +86,6 @@ void mor_session_print_scheme(FILE *out, const mor_case *the_case);
  *  @param out [in,out]  one open stream */
 void mor_session_print_soils(FILE *out, const mor_simulation *simulation);
 
-/** Prints what the parameters that vary in space came to in the particles; nothing where none does.
- *  @param out [in,out]  one open stream */
-void mor_session_print_fields(FILE *out, const mor_simulation *simulation);
-
 /** Sets what a folder of results is made with.
  *  @param folder [in]  zero-terminated; borrowed */
 void mor_session_set_folder(mor_session *session, const char *folder, bool is_resume);

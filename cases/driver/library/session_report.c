@@ -7,6 +7,7 @@
 #include "cases/driver/case/schema/contact_report.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/run/wall_time.h"
+#include "cases/driver/scene/check/field_report.h"
 #include "cases/driver/scene/check/resolution_advice.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
 #include "core/base/hash.h"
@@ -190,7 +191,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     mor_rocks_report_print(c, out);
     mor_session_print_soils(out, s);
     print_events(out, s);
-    mor_session_print_fields(out, s);
+    mor_field_report_print(out, s);
 }
 
 /* Length and cost of a common step: at the start, or once bodies touch. */

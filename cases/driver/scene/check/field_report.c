@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Parameters of soils that vary in space, as a table. */
-#include "cases/driver/library/session_internal.h"
+#include "cases/driver/scene/check/field_report.h"
 
 #include "core/base/math.h"
 
@@ -34,7 +34,7 @@ static void print_field(FILE *out, const mor_case_soil *soil, int k, const mor_s
             found->largest / unit, (long long)(found->n_raised + found->n_lowered));
 }
 
-void mor_session_print_fields(FILE *out, const mor_simulation *s)
+void mor_field_report_print(FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
     bool has_title = false;

@@ -1,0 +1,74 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/sph/settings/soil_settings.h"
+
+#include "core/base/math.h"
+#include "core/particle/kernel.h"
+
+#include <math.h>
+
+/* Times of a fall up to the speed of soil at rest that soil must have been quiet at least. */
+enum { FALLS = 4 };
+
+void mor_soil_sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment)
+{
+    const double spacing = settings->spacing;
+    const int reach = (int)(MOR_KERNEL_SUPPORT * smoothing_length / spacing) + 1;
+    const int reach_z = settings->dimension == 3 ? reach : 0;
+    *value = 0.0;
+    *moment = 0.0;
+    for (int x = -reach; x <= reach; ++x) {
+        for (int y = -reach; y <= reach; ++y) {
+            for (int z = -reach_z; z <= reach_z; ++z) {
+                const double r = spacing * sqrt((double)(x * x + y * y + z * z));
+                *value += mor_kernel_value(r, smoothing_length, settings->dimension);
+                *moment -= r > 0.0 ? mor_kernel_derivative(r, smoothing_length, settings->dimension) * spacing *
+                                         spacing * (double)(x * x) / r
+                                   : 0.0;
+            }
+        }
+    }
+    const double volume = settings->dimension == 3 ? spacing * spacing * spacing : spacing * spacing;
+    *value *= volume;
+    *moment *= volume;
+}
+
+mor_status mor_soil_kind_find_speed(mor_context *context, const mor_material_instance *material, int index,
+                                    mor_soil_kind *kind)
+{
+    const double stress[6] = {0.0};
+    double speed = 0.0;
+    double values[MOR_MATERIAL_STATES_MAX][9] = {{0.0}};
+    double *state[MOR_MATERIAL_STATES_MAX];
+    const double *state_in[MOR_MATERIAL_STATES_MAX];
+    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
+        state[k] = values[k];
+        state_in[k] = values[k];
+    }
+    values[0][0] = index; /* of a composite; any other law writes its own */
+    mor_batch batch = {
+        .n = 1, .density = &kind->reference_density, .stress_in = stress, .state_in = state_in, .state_out = state};
+    const mor_material_operations *operations = &material->operations;
+    mor_status status = operations->init_state(material, &batch);
+    if (status == MOR_OK) {
+        status = operations->wave_speed(material, &batch, &speed);
+    }
+    MOR_CHECK(context, status == MOR_OK && speed > 0.0 && isfinite(speed), MOR_ERROR_NUMERIC,
+              "material '%s' gives a wave speed of %g m/s; it must be positive and finite", material->material->name,
+              speed);
+    kind->sound_speed = speed;
+    return MOR_OK;
+}
+
+mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings)
+{
+    const mor_scheme *scheme = &settings->scheme;
+    const double gravity = mor_vector_length(settings->gravity);
+    const double least = gravity > 0.0 ? FALLS * scheme->sleep_speed * sqrt(settings->spacing / gravity) : 0.0;
+    MOR_CHECK(
+        context, scheme->sleep_after == 0.0 || scheme->sleep_after >= least, MOR_ERROR_CONFIG,
+        "found numerics.sleep_after = %g s; allowed: 0, or at least %.3g s, %d times as long as soil that begins to "
+        "fall stays slower than sleep_speed: it would fall asleep in the air; give a longer time",
+        scheme->sleep_after, least, FALLS);
+    return MOR_OK;
+}
