@@ -45,8 +45,8 @@ typedef struct mor_soil_settings {
 /** Sums over the lattice the soil starts from.
  *  @param settings         [in]   dimension and spacing are read
  *  @param smoothing_length [in]   unit m
- *  @param value            [out]  of V W, 1
- *  @param moment           [out]  of V (r_j - r_i) (x) grad_i W, one diagonal entry, 1 */
+ *  @param value            [out]  one number; of V W, unit 1
+ *  @param moment           [out]  one number; of V (r_j - r_i) (x) grad_i W, one diagonal entry, unit 1 */
 void mor_soil_sum_lattice(const mor_soil_settings *settings, double smoothing_length, double *value, double *moment);
 
 /** Finds the wave speed of an unstressed soil; it sets the step and the impedance, Zhang et al. (2024) eq. 22.
