@@ -327,11 +327,30 @@ static mor_status print_failure(mor_context *context, FILE *out, mor_status stat
     return status;
 }
 
+/* What walls take once soil has been near all of them, beyond what they take now, bytes: records, boxes of the tree,
+ * and what a wall has for normals and motion. */
+static double find_wall_growth(const mor_soil *soil)
+{
+    double growth = 0.0;
+    for (int w = 0; w < soil->n_walls; ++w) {
+        const mor_soil_contact *it = &soil->walls[w];
+        const double boxes = 2.0 * 6.0 / MOR_CLUSTER;
+        const int arrays = (it->normals != NULL ? 4 : 0) + (it->base != NULL ? 3 : 0) + (it->built != NULL ? 3 : 0) +
+                           (it->base_normals != NULL ? 3 : 0);
+        growth += (double)(mor_soil_contact_points(it) - it->n_points) * (MOR_BOUNDARY_RECORD + boxes + arrays);
+    }
+    return growth * (double)sizeof(double);
+}
+
 static void print_memory(const mor_context *context, FILE *out, const mor_simulation *s)
 {
     fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
     if (s->has_soil) {
+        const double growth = find_wall_growth(&s->soil);
         fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+        if (growth > 0.0) {
+            fprintf(out, "; walls take up to %.1f MiB more as soil comes near them", growth / 1048576.0);
+        }
     }
     fprintf(out, "\n");
 }
