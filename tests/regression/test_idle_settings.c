@@ -39,7 +39,7 @@ static const idle_row rows[] = {
     {"gauges[0].cutoff=100 kHz", "gauge 'gate' has a cutoff of 100000 Hz, above half the rate of the steps"},
     {"gauges[0].region={type=\"box\"; min=(0.0, 1.5); max=(2.0, 3.0);}", "!warning"},
     {"gauges[0].region={type=\"box\"; min=(0.0, 2.5); max=(2.0, 3.0);}",
-     "gauge 'gate' has a region that is 0.55 m away from 'gate': it will measure nothing"},
+     "gauge 'gate' has a region that is at least 0.55 m away from 'gate': it will measure nothing"},
     {"numerics.sleep_after=0", "!warning"},
     {"numerics.sleep_after=21 ms", "numerics.sleep_after = 0.021 s is no shorter than the run"},
     {"soil[0].material.cohesion=100 Pa", "!warning"},
@@ -64,6 +64,33 @@ static void settings_without_effect_are_warned_of(void **state)
         }
         program_clear(&outcome);
     }
+}
+
+/* A floor of 6400 particles, most of which appear when soil comes near. */
+static void regions_on_walls_that_soil_has_yet_to_reach_are_no_mistake(void **state)
+{
+    static const char floor[] =
+        "title = 'floor'; dimension = 2; spacing = '0.1 m'; gravity = (0, 0); end = '20 ms';"
+        "domain = { min = (-1, -1); max = (160, 3); };"
+        "soil = ( { name = 'block'; shape = { type = 'box'; min = (0, 0); max = (1, 1); };"
+        "  material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '1 MPa';"
+        "    poissons_ratio = 0.2; friction_angle = '30 deg'; cohesion = '50 kPa'; }; } );"
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
+        "gauges = ( { name = 'far'; wall = 'floor'; direction = (0, 1);"
+        "  region = { type = 'box'; min = (100, -0.2); max = (102, 0.2); }; } );"
+        "output = { snapshots = 1; pictures = false; };";
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const on_it[] = {"check", path, NULL};
+    const char *const over_it[] = {"check", path, "-s",
+                                   "gauges[0].region={type=\"box\"; min=(100.0, 1.5); max=(102.0, 2.5);}", NULL};
+    finished_run_store_text(folder, floor, path);
+    program_outcome outcome = program_run(folder, on_it, 0);
+    assert_null(strstr(outcome.output, "has a region"));
+    program_clear(&outcome);
+    outcome = program_run(folder, over_it, 0);
+    program_expect_text(outcome.output, "gauge 'far' has a region that is at least");
+    program_clear(&outcome);
 }
 
 static void maps_of_the_end_alone_are_warned_of(void **state)
@@ -140,6 +167,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         FOLDER_TEST(settings_without_effect_are_warned_of),
+        FOLDER_TEST(regions_on_walls_that_soil_has_yet_to_reach_are_no_mistake),
         FOLDER_TEST(maps_of_the_end_alone_are_warned_of),
         FOLDER_TEST(stages_warn_of_what_does_nothing),
         FOLDER_TEST(run_out_of_soil_that_moves_is_warned_of),

@@ -3,6 +3,7 @@
 #include "cases/driver/scene/check/idle_settings.h"
 
 #include "core/base/math.h"
+#include "core/sph/boundary/soil_wall.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,6 +106,7 @@ typedef struct structure_points {
     const double *points;
     int64_t n;
     int stride;
+    const mor_wall_blocks *blocks; /* of a wall, some of which have no points yet; or NULL */
 } structure_points;
 
 static structure_points find_structure(const mor_simulation *s, const mor_case_gauge *gauge)
@@ -114,17 +116,17 @@ static structure_points find_structure(const mor_simulation *s, const mor_case_g
         if (strcmp(c->walls[w].name, gauge->wall) == 0) {
             const mor_soil_contact *contact = &s->soil.walls[w];
             return (structure_points){contact->boundary->records + MOR_BOUNDARY_POSITION, contact->n_points,
-                                      MOR_BOUNDARY_RECORD};
+                                      MOR_BOUNDARY_RECORD, contact->blocks};
         }
     }
     for (int b = 0; b < c->n_bodies; ++b) {
         if (strcmp(c->bodies[b].name, gauge->body) == 0) {
             const mor_body_group *group = s->bodies.of[b].group;
             const mor_body *body = &group->bodies[s->bodies.of[b].index];
-            return (structure_points){group->node_reference + 3 * body->first_node, body->n_nodes, 3};
+            return (structure_points){group->node_reference + 3 * body->first_node, body->n_nodes, 3, NULL};
         }
     }
-    return (structure_points){NULL, 0, 0};
+    return (structure_points){NULL, 0, 0, NULL};
 }
 
 /* What moves may come into the region later. */
@@ -145,23 +147,55 @@ static bool is_moving(const mor_simulation *s, const mor_case_gauge *gauge)
     return false;
 }
 
+/* A lower bound of the distance of a region from a box, exact to a spacing where it is small, m. */
+static double find_box_distance(const mor_case *c, const mor_shape *region, const double *box)
+{
+    double middle[3], half[3], first[6], second[6];
+    int longest = 0;
+    for (int a = 0; a < 3; ++a) {
+        middle[a] = 0.5 * (box[a] + box[3 + a]);
+        half[a] = 0.5 * (box[3 + a] - box[a]);
+        longest = half[a] > half[longest] ? a : longest;
+    }
+    const double distance = mor_simulation_placed_distance(region, c->rotation, c->translation, middle);
+    const double bound = distance - mor_vector_length(half);
+    if (bound > c->spacing || distance <= c->spacing || half[longest] <= 0.25 * c->spacing) {
+        return bound;
+    }
+    memcpy(first, box, sizeof first);
+    memcpy(second, box, sizeof second);
+    first[3 + longest] = second[longest] = middle[longest];
+    return fmin(find_box_distance(c, region, first), find_box_distance(c, region, second));
+}
+
+/* A lower bound of the distance of a region from a structure, m; once it is below a spacing, any smaller number. */
+static double find_distance(const mor_case *c, const mor_shape *region, const structure_points *at)
+{
+    double nearest = INFINITY;
+    for (int64_t k = 0; k < at->n && nearest > c->spacing; ++k) {
+        nearest = fmin(
+            nearest, mor_simulation_placed_distance(region, c->rotation, c->translation, at->points + at->stride * k));
+    }
+    for (int64_t b = 0; at->blocks != NULL && b < at->blocks->n_blocks && nearest > c->spacing; ++b) {
+        nearest = fmin(nearest, find_box_distance(c, region, at->blocks->blocks[b].box));
+    }
+    return nearest;
+}
+
 static void warn_of_region(mor_context *context, const mor_simulation *s, const mor_case_gauge *it)
 {
     const mor_case *c = s->the_case;
     const structure_points at = find_structure(s, it);
-    double nearest = INFINITY;
     if (it->region == NULL || at.points == NULL || is_moving(s, it)) {
         return;
     }
-    for (int64_t k = 0; k < at.n && nearest > c->spacing; ++k) {
-        nearest = fmin(nearest, mor_simulation_placed_distance(it->region, c->rotation, c->translation,
-                                                               at.points + at.stride * k));
-    }
+    const double nearest = find_distance(c, it->region, &at);
     if (nearest > c->spacing) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "%s:%d: gauge '%s' has a region that is %.3g m away from '%s': it will measure nothing; "
-                        "correct the region",
-                        it->place.file, it->place.line, it->name, nearest, it->wall[0] != '\0' ? it->wall : it->body);
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%s:%d: gauge '%s' has a region that is at least %.3g m away from '%s': it will measure nothing; "
+            "correct the region",
+            it->place.file, it->place.line, it->name, nearest, it->wall[0] != '\0' ? it->wall : it->body);
     }
 }
 
