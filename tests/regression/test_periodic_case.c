@@ -123,7 +123,7 @@ static const refusal refusals[] = {
     {"probes=({name=\"p\"; type=\"plastic_width\"; strain=0.1;})", "a zone that may go on through a face across"},
     {"probes=({name=\"p\"; type=\"energy_line\"; friction_coefficient=0.3; path=((0, 0, 0), (1, 0, 0));})",
      "on a path"},
-    {"probes=({name=\"p\"; type=\"spread\"; direction=(1, 0, 0); region={type=\"sphere\"; radius=1;};})",
+    {"probes=({name=\"p\"; type=\"spread\"; direction=(1,0,0); region={type=\"sphere\"; center=(0,0,0); radius=1;};})",
      "of the places in a region"},
     {"walls[0].velocity=(0.1, 0, 0)", "moves along a periodic axis"},
     {"walls[0].path={table=({time=0;}, {time=1; angle=1;});}", "that rotates"},

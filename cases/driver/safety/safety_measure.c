@@ -86,7 +86,7 @@ static mor_status find_lengths(mor_context *context, const mor_simulation *simul
     }
     MOR_CHECK(context, !isnan(*height), MOR_ERROR_CONFIG,
               "found a gravity along the periodic axes alone, across which the soil has no thickness that could count "
-              "as the height of the slope; allowed: with a height; give it (--height)");
+              "as the height of the slope; allowed: with a height of the slope; give one");
     return MOR_OK;
 }
 

@@ -26,8 +26,8 @@ typedef struct mor_safety_reference {
 
 /** Notes the state of a simulation.
  *  @param height    [in]      of the slope, m; NaN: the difference between the highest and the lowest place of the
- *                             soil's surface, or the depth of the soil where that is more than four times as large; where
- *                             gravity has a part along a periodic axis the thickness of the soil across such axes
+ *                             soil's surface, or the depth of the soil where that is more than four times as large;
+ *                             where gravity has a part along a periodic axis the thickness of the soil
  *  @param reference [out]     cleared after a failure
  *  Returns: MOR_OK; MOR_ERROR_CONFIG where no height is given and gravity has no part across the periodic axes;
  *  MOR_ERROR_MEMORY. */

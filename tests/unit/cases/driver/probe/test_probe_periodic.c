@@ -16,6 +16,9 @@ static const char text[] =
     "    poissons_ratio = 0.3; friction_angle = '25 deg'; }; } );"
     "walls = ( { name = 'floor'; friction = 'rough';"
     "    shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; } );"
+    "gauges = ( { name = 'endless'; wall = 'floor'; direction = (0, -1); },"
+    "  { name = 'part'; wall = 'floor'; direction = (0, -1);"
+    "    region = { type = 'box'; min = ('0.05 m', '-0.1 m'); max = ('0.15 m', '0.1 m'); }; } );"
     "probes = ( { name = 'center'; type = 'center_of_mass'; direction = (1, 0); },"
     "  { name = 'upper'; type = 'center_of_mass'; soil = 'upper'; direction = (1, 0); },"
     "  { name = 'angle'; type = 'angle_of_centers'; direction = (1, 0); },"
@@ -98,11 +101,30 @@ static void zones_of_one_soil_are_of_its_particles(void **state)
     scene_free(it);
 }
 
+/* Arm and height of the force on a floor without ends would be those of the faces; a part of it has its own. */
+static void gauges_without_ends_have_no_arm(void **state)
+{
+    const scene_request request = {.text = text};
+    mor_gauge_reading reading;
+    double loads[2 * MOR_GAUGE_LOADS] = {0.0};
+    (void)state;
+    scene *it = scene_new(&request);
+    loads[MOR_GAUGE_FORCE + 1] = -1.0;
+    loads[MOR_GAUGE_MOMENT + 2] = 0.5;
+    loads[MOR_GAUGE_RAISED] = 0.25;
+    mor_gauge_read(&it->simulation.probes->gauges.of[0], loads, &reading);
+    assert_true(reading.normal == 1.0 && isnan(reading.moment) && isnan(reading.height));
+    mor_gauge_read(&it->simulation.probes->gauges.of[1], loads, &reading);
+    assert_true(reading.normal == 1.0 && fabs(reading.moment) == 0.5 && reading.height == 0.25);
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_have_the_way_through_the_faces),
         cmocka_unit_test(the_soil_at_a_face_is_seen_on_both_sides),
+        cmocka_unit_test(gauges_without_ends_have_no_arm),
         cmocka_unit_test(zones_of_one_soil_are_of_its_particles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -53,7 +53,7 @@ static void a_gravity_along_the_axis_asks_for_a_height(void **state)
     (void)state;
     scene *it = build(lengths[0], "gravity=(9.81, 0)");
     assert_int_equal(mor_safety_reference_init(&it->context, &it->simulation, NAN, &reference), MOR_ERROR_CONFIG);
-    assert_non_null(strstr(it->context.message, "--height"));
+    assert_non_null(strstr(it->context.message, "give one"));
     scene_require(it, mor_safety_reference_init(&it->context, &it->simulation, 0.5, &reference));
     mor_safety_reference_clear(&it->context, &reference);
     scene_free(it);
