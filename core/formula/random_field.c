@@ -42,13 +42,27 @@ static void set_wave(mor_random_field *field, int which, mor_random_correlation 
     field->waves[which][3] = 2.0 * MOR_PI * mor_random_uniform(seed, id + 8, purpose);
 }
 
+/* [RF6]: a wave that has a whole number of lengths in each period. */
+static void fit_wave(double *wave, const double *periods)
+{
+    for (int a = 0; a < 3; ++a) {
+        if (periods[a] > 0.0) {
+            const double unit = 2.0 * MOR_PI / periods[a];
+            wave[a] = unit * rint(wave[a] / unit);
+        }
+    }
+}
+
 mor_status mor_random_field_new(mor_context *context, mor_random_correlation correlation, const double *lengths,
-                                uint64_t seed, uint64_t purpose, mor_random_field **field)
+                                const double *periods, uint64_t seed, uint64_t purpose, mor_random_field **field)
 {
     *field = NULL;
     MOR_TRY(context, MOR_NEW(context, field, 1, "random field"));
     for (int k = 0; k < MOR_RANDOM_FIELD_WAVES; ++k) {
         set_wave(*field, k, correlation, lengths, seed, purpose);
+        if (periods != NULL) {
+            fit_wave((*field)->waves[k], periods);
+        }
     }
     return MOR_OK;
 }

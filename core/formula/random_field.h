@@ -9,7 +9,7 @@
  *  Gaussian random fields in space: mean zero, variance one, a given correlation. A field is a sum of plane waves whose
  *  wave vectors and phases are random numbers of the seed alone, so that it has a value at every place, whatever places
  *  are asked for, in which order and by how many threads.
- *  Theory: docs/theory/random_fields.md [RF1] to [RF4]; Shinozuka and Deodatis (1991); Kraichnan (1970). */
+ *  Theory: docs/theory/random_fields.md [RF1] to [RF6]; Shinozuka and Deodatis (1991); Kraichnan (1970). */
 
 /** Number of waves of a field. The covariance of one realization has an error of about 1/sqrt(2 n), 2 %; that of the
  *  ensemble has none. */
@@ -25,15 +25,18 @@ typedef enum mor_random_correlation {
 /** A field. Owner: the caller. */
 typedef struct mor_random_field mor_random_field;
 
-/** Makes a field.
+/** Makes a field. Along an axis with a period L it repeats itself exactly: wave vectors are the nearest multiples of
+ *  2 pi / L. Its correlation is then the sum of rho(lag + n L) sinc((lag + n L) / L) over all whole n, sinc(x) =
+ *  sin(pi x) / (pi x), [RF6]: one at no lag, and near rho where L is many correlation lengths.
  *  @param correlation [in]   which
  *  @param lengths     [in]   shape [3], along x, y and z; > 0, INFINITY: no change along it; any unit of length
+ *  @param periods     [in]   shape [3]; likewise; 0: it does not repeat itself; NULL: along no axis
  *  @param seed        [in]   fields of different seeds are independent
  *  @param purpose     [in]   likewise of different purposes
  *  @param field       [out]  the address of one pointer; NULL after a failure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_random_field_new(mor_context *context, mor_random_correlation correlation, const double *lengths,
-                                uint64_t seed, uint64_t purpose, mor_random_field **field);
+                                const double *periods, uint64_t seed, uint64_t purpose, mor_random_field **field);
 
 /** Frees a field and sets the pointer NULL; accepts NULL.
  *  @param field [in,out]  the address of one pointer */

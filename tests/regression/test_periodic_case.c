@@ -110,6 +110,21 @@ static const refusal refusals[] = {
     {"numerics.sleep_after=2", "sleep_after = 2 s"},
     {"maps={}", "with maps"},
     {"probes[0].direction=(1, 0, 1)", "inclined to the periodic axis x"},
+    {"probes[0].type=run_out", "of places along the periodic axis x"},
+    {"probes[0].type=toe", "of places along the periodic axis x"},
+    {"probes[0].type=front_speed", "of places along the periodic axis x"},
+    {"probes[0].type=stray_share", "of places along the periodic axis x"},
+    {"probes[0].type=repose_angle", "of places along the periodic axis x"},
+    {"probes[0].type=volume_beyond", "of places along the periodic axis x"},
+    {"probes[0].type=boulders_in_front", "of places along the periodic axis x"},
+    {"probes[0].type=angular_momentum", "arms of a moment along the periodic axis y"},
+    {"probes=({name=\"p\"; type=\"run_out\";})", "of places along the periodic axis x"},
+    {"probes=({name=\"p\"; type=\"angle_of_reach\"; direction=(0, 1, 0);})", "of places along the periodic axis y"},
+    {"probes=({name=\"p\"; type=\"plastic_width\"; strain=0.1;})", "a zone that may go on through a face across"},
+    {"probes=({name=\"p\"; type=\"energy_line\"; friction_coefficient=0.3; path=((0, 0, 0), (1, 0, 0));})",
+     "on a path"},
+    {"probes=({name=\"p\"; type=\"spread\"; direction=(1,0,0); region={type=\"sphere\"; center=(0,0,0); radius=1;};})",
+     "of the places in a region"},
     {"walls[0].velocity=(0.1, 0, 0)", "moves along a periodic axis"},
     {"walls[0].path={table=({time=0;}, {time=1; angle=1;});}", "that rotates"},
     {"walls[0].shape={type=\"box\"; min=(0, -1, -0.2); max=(1, 1, 0);}", "ending at the periodic face x = 0 m"},
@@ -134,6 +149,26 @@ static void what_does_not_go_with_a_period_is_refused(void **state)
             fail_msg("'%s' is not refused", refusals[k].setting);
         }
         session_expect(session, status, k < 0 ? MOR_OK : MOR_ERROR_CONFIG, k < 0 ? "" : refusals[k].part);
+        mor_session_free(&session);
+    }
+}
+
+/* Gravity that is inclined to an axis makes heights go on with the way along it; level axes do not matter. */
+static void heights_are_refused_where_gravity_is_inclined(void **state)
+{
+    static const char *const types[] = {"height", "stress_error", "stress_noise", "boulder_height"};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, layer, path);
+    for (int k = 0; k < 8; ++k) {
+        char probe[128];
+        mor_session *session = NULL;
+        snprintf(probe, sizeof probe, "probes=({name=\"p\"; type=\"%s\";})", types[k / 2]);
+        assert_int_equal(mor_session_new(&session), MOR_OK);
+        assert_int_equal(mor_session_override(session, probe), MOR_OK);
+        assert_int_equal(k % 2 == 0 ? MOR_OK : mor_session_override(session, "gravity=(0, 5, -8)"), MOR_OK);
+        session_expect(session, mor_session_load_file(session, path), k % 2 == 0 ? MOR_OK : MOR_ERROR_CONFIG,
+                       k % 2 == 0 ? "" : "to the periodic axis y");
         mor_session_free(&session);
     }
 }
@@ -168,6 +203,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_run_does_not_go_on_with_another_period, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(what_does_not_go_with_a_period_is_refused, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(heights_are_refused_where_gravity_is_inclined, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_rock_that_comes_to_a_face_stops_the_run, run_folder_setup,
                                         run_folder_teardown),

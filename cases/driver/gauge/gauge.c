@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/reduce.h"
+#include "core/geometry/shape_analytic.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -188,6 +189,7 @@ void mor_gauge_read(const mor_gauge *gauge, const double *loads, mor_gauge_readi
     reading->shear = mor_vector_length(rest);
     reading->moment = mor_vector_length(gauge->axis) > 0.0 ? mor_vector_dot(sum + MOR_GAUGE_MOMENT, gauge->axis) : NAN;
     reading->height = reading->normal != 0.0 ? sum[MOR_GAUGE_RAISED] / reading->normal : NAN;
+    reading->height = gauge->has_height ? reading->height : NAN;
 }
 
 /* Keeps the larger value and when it was; returns whether that is the new one. */
@@ -277,6 +279,38 @@ static void set_frame(const mor_simulation *s, mor_gauge *gauge)
     }
 }
 
+/* Whether a gauge is of something that lies between the faces of a periodic axis and stays there, as bodies do. */
+static bool is_between(const mor_case *c, const mor_gauge *gauge, int axis)
+{
+    bool is = gauge->wall < 0;
+    for (int k = 0; k < 2 && !is; ++k) {
+        const mor_shape *shape = k == 0 ? c->walls[gauge->wall].shape : gauge->asked->region;
+        if (shape != NULL) {
+            mor_bounds bounds;
+            mor_shape_bounds(shape, &bounds);
+            is = bounds.minimum[axis] >= c->domain_minimum[axis] && bounds.maximum[axis] <= c->domain_maximum[axis];
+        }
+    }
+    return is;
+}
+
+/* What goes on through a periodic face is measured over one period: arms and heights that change with the way along the
+ * axis would tell where the faces are. */
+static void leave_out_endless(const mor_case *c, mor_gauge *gauge)
+{
+    const double least = 1.0e-6; /* as above */
+    gauge->has_height = true;
+    for (int a = 0; a < 3; ++a) {
+        if (!mor_case_is_periodic(c, a) || is_between(c, gauge, a)) {
+            continue;
+        }
+        gauge->has_height = gauge->has_height && fabs(gauge->up[a]) < least;
+        if (fabs(gauge->axis[a]) < 1.0 - least) {
+            memset(gauge->axis, 0, sizeof gauge->axis);
+        }
+    }
+}
+
 static void find_structure(const mor_case *c, mor_gauge *gauge)
 {
     gauge->wall = -1;
@@ -300,6 +334,7 @@ static mor_status init_gauge(mor_context *context, const mor_simulation *s, cons
                                         .cutoff = asked->cutoff};
     find_structure(s->the_case, gauge);
     set_frame(s, gauge);
+    leave_out_endless(s->the_case, gauge);
     const int64_t n_memory = mor_signal_filter_numbers(&gauge->filter, MOR_GAUGE_SIGNALS);
     MOR_TRY(context, MOR_NEW(context, &gauge->memory, n_memory, "the filter of a gauge"));
     MOR_TRY(context, mor_gauge_map_init(context, s, gauge));

@@ -88,7 +88,9 @@ typedef struct mor_gauge {
     double origin[3];    /* placed, m */
     double direction[3]; /* placed, 1 */
     double up[3];        /* 1 */
-    double axis[3];      /* of overturning, up x direction, 1; zero where direction is vertical */
+    double axis[3];      /* of overturning, up x direction, 1; zero where direction is vertical, and of a structure that
+                          * goes on through a periodic face, whose axis is not that of the period */
+    bool has_height;     /* false for such a structure where gravity has a part along the axis of the period */
     double numbers[MOR_GAUGE_NUMBERS];
     double *memory; /* of the filter */
     mor_gauge_map map;
@@ -110,8 +112,8 @@ typedef struct mor_gauge_reading {
     double of_source[MOR_GAUGE_SOURCES]; /* its shares, N (N/m) */
     double shear;                        /* length of the rest of the force, N (N/m) */
     double moment; /* about the axis up x direction through the origin: positive overturns, N m (N);
-                                         * NaN where direction is vertical */
-    double height; /* of the normal force's action over the origin, m; NaN without such a force */
+                                         * NaN where the gauge has no axis */
+    double height; /* of the normal force's action over the origin, m; NaN without such a force or has_height */
 } mor_gauge_reading;
 
 /** Makes the gauges of a case; they look on from then on.

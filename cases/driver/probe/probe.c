@@ -280,33 +280,11 @@ static mor_status momentum(mor_context *context, const view *v, double *value)
     return MOR_OK;
 }
 
-/* Adds to a center of mass how far periodic faces have put particles back. */
-static void add_crossings(const view *v, double *center)
-{
-    const mor_soil *soil = &v->simulation->soil;
-    double *const *data = soil->set.data;
-    double moment[3] = {0.0, 0.0, 0.0};
-    double mass = 0.0;
-    for (int64_t i = 0; soil->period.is_any && i < soil->set.n_particles; ++i) {
-        const bool is_counted = v->soil < 0 || soil->region_field < 0 || (int)data[soil->region_field][i] == v->soil;
-        if (is_counted && mor_probe_is_inside(v, data[MOR_FIELD_POSITION] + 3 * i)) {
-            mass += data[MOR_FIELD_MASS][i];
-            for (int a = 0; a < 3; ++a) {
-                moment[a] += data[MOR_FIELD_MASS][i] * data[MOR_FIELD_CROSSINGS][3 * i + a] * soil->period.length[a];
-            }
-        }
-    }
-    for (int a = 0; a < 3 && mass > 0.0; ++a) {
-        center[a] += moment[a] / mass;
-    }
-}
-
 static mor_status center_of_mass(mor_context *context, const view *v, double *value)
 {
     double center[3];
     (void)context;
-    mor_measure_center_of_mass(&v->points, center);
-    add_crossings(v, center);
+    mor_probe_find_center(v, center);
     for (int a = 0; a < 3; ++a) {
         center[a] -= v->frame.origin[a];
     }

@@ -175,9 +175,10 @@ static mor_status spread(mor_context *context, const view *v, double *value)
     if (v->points.n_points == 0) {
         return MOR_OK;
     }
-    mor_measure_center_of_mass(&v->points, center);
+    mor_probe_find_center(v, center);
     for (int64_t i = 0; i < v->points.n_points; ++i) {
-        const double *place = v->points.position + 3 * i;
+        double place[3];
+        mor_probe_find_place(v, i, place);
         const double offset[3] = {place[0] - center[0], place[1] - center[1], place[2] - center[2]};
         const double along = mor_vector_dot(offset, v->frame.direction);
         sum += v->points.mass[i] * along * along;

@@ -16,7 +16,9 @@ static double find_weight(const mor_probe_view *v, const double *position, doubl
         return mor_probe_is_inside(v, position) ? in_region : 0.0;
     }
     for (int a = 0; a < 3; ++a) {
+        const double period = v->simulation->soil.period.length[a];
         offset[a] = position[a] - v->frame.origin[a];
+        offset[a] -= period > 0.0 ? period * rint(offset[a] / period) : 0.0; /* the nearest image */
     }
     return mor_kernel_value(mor_vector_length(offset), v->points.spacing, v->points.dimension);
 }

@@ -17,7 +17,7 @@ typedef struct mor_probe_part {
     bool is_current;                              /* of this measurement */
     int64_t n;                                    /* particles */
     double *position, *velocity, *mass, *density; /* room for all particles; owned; m, m/s, kg (kg/m), kg/m3 */
-    int64_t *index;                               /* likewise; in the set; NULL: not kept */
+    int64_t *index;                               /* likewise; in the set */
 } mor_probe_part;
 
 /** What the probes of one measurement share, so that it is found once, and their scratch. Owner: the track. */
@@ -145,6 +145,15 @@ void mor_probe_scan_part(mor_probe_view *view);
 /** Whether a place lies in the region of a probe; anywhere without one.
  *  @param place [in]  shape [3]; placed frame, unit m */
 bool mor_probe_is_inside(const mor_probe_view *view, const double *place);
+
+/** Where a point of a view would be in a domain without periodic faces; its place where there are none.
+ *  @param point [in]   index among the points of the view
+ *  @param place [out]  shape [3]; placed frame, of a view on a path that of the path, unit m */
+void mor_probe_find_place(const mor_probe_view *view, int64_t point, double *place);
+
+/** The center of mass of the points of a view, each where mor_probe_find_place has it.
+ *  @param center [out]  shape [3]; as mor_probe_find_place; NaN without points */
+void mor_probe_find_center(const mor_probe_view *view, double *center);
 
 /** Prepares the measurement of a probe.
  *  @param probe      [in]   index of the probe in the case */

@@ -34,7 +34,7 @@ static void find_center(const view *v, double *along, double *height)
 {
     double center[3];
     double level[3];
-    mor_measure_center_of_mass(&v->points, center);
+    mor_probe_find_center(v, center);
     find_level(v, level);
     *along = mor_vector_dot(center, level);
     *height = mor_vector_dot(center, v->frame.up);
@@ -150,8 +150,9 @@ static mor_status energy_line(mor_context *context, const view *v, double *value
               "found a case without gravity, in which energy is no height; allowed: with gravity; remove the probe");
     find_level(v, level);
     for (int64_t i = 0; i < v->points.n_points; ++i) {
-        const double *place = v->points.position + 3 * i;
+        double place[3];
         const double *velocity = v->velocity + 3 * i;
+        mor_probe_find_place(v, i, place);
         mass += v->points.mass[i];
         sum += v->points.mass[i] *
                (mor_vector_dot(place, v->frame.up) + 0.5 * mor_vector_dot(velocity, velocity) / gravity +

@@ -37,6 +37,7 @@ static mor_status reserve_part(mor_context *context, int64_t n, mor_probe_part *
     MOR_TRY(context, MOR_NEW(context, &part->position, 3 * n, "positions of one soil"));
     MOR_TRY(context, MOR_NEW(context, &part->velocity, 3 * n, "velocities of one soil"));
     MOR_TRY(context, MOR_NEW(context, &part->mass, n, "masses of one soil"));
+    MOR_TRY(context, MOR_NEW(context, &part->index, n, "particles of one soil"));
     return MOR_NEW(context, &part->density, n, "densities of one soil");
 }
 
@@ -72,7 +73,6 @@ static mor_status prepare_own(mor_context *context, const mor_simulation *s, int
     if (!has_own_part(it) || n == 0) {
         return MOR_OK;
     }
-    MOR_TRY(context, MOR_NEW(context, &scan->own[probe].index, n, "particles of a probe"));
     return reserve_part(context, n, &scan->own[probe]);
 }
 
@@ -148,6 +148,7 @@ static void add_particle(const mor_soil *soil, int64_t i, mor_probe_part *part)
     memcpy(part->velocity + 3 * part->n, data[MOR_FIELD_VELOCITY] + 3 * i, 3 * sizeof *part->velocity);
     part->mass[part->n] = data[MOR_FIELD_MASS][i];
     part->density[part->n] = data[MOR_FIELD_DENSITY][i];
+    part->index[part->n] = i;
     part->n += 1;
 }
 
@@ -204,7 +205,6 @@ static void gather_own(const mor_probe_view *view, double axes[3][3], mor_probe_
     part->n = 0;
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {
         if (is_of_soil(soil, view->soil, i) && mor_probe_is_inside(view, soil->set.data[MOR_FIELD_POSITION] + 3 * i)) {
-            part->index[part->n] = i;
             add_particle(soil, i, part);
             if (view->path != NULL) {
                 straighten(view->path, axes, part);
@@ -243,6 +243,34 @@ void mor_probe_scan_part(mor_probe_view *view)
     view->points.position = part->position;
     view->points.mass = part->mass;
     view->points.density = part->density;
+}
+
+void mor_probe_find_place(const mor_probe_view *view, int64_t point, double *place)
+{
+    const mor_soil *soil = &view->simulation->soil;
+    const int64_t i = view->index != NULL ? view->index[point] : point;
+    memcpy(place, view->points.position + 3 * point, 3 * sizeof *place);
+    for (int a = 0; a < 3 && soil->period.is_any; ++a) {
+        place[a] += soil->set.data[MOR_FIELD_CROSSINGS][3 * i + a] * soil->period.length[a];
+    }
+}
+
+void mor_probe_find_center(const mor_probe_view *view, double *center)
+{
+    const mor_soil *soil = &view->simulation->soil;
+    double moment[3] = {0.0, 0.0, 0.0};
+    double mass = 0.0;
+    mor_measure_center_of_mass(&view->points, center);
+    for (int64_t k = 0; soil->period.is_any && k < view->points.n_points; ++k) {
+        const int64_t i = view->index != NULL ? view->index[k] : k;
+        mass += view->points.mass[k];
+        for (int a = 0; a < 3; ++a) {
+            moment[a] += view->points.mass[k] * soil->set.data[MOR_FIELD_CROSSINGS][3 * i + a] * soil->period.length[a];
+        }
+    }
+    for (int a = 0; a < 3 && mass > 0.0; ++a) {
+        center[a] += moment[a] / mass;
+    }
 }
 
 const double *mor_probe_energies(const mor_context *context, const mor_probe_view *view)

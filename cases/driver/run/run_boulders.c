@@ -201,10 +201,12 @@ static mor_status write_displacements(mor_context *context, const mor_simulation
         const int64_t i = places[id] - 1;
         if (i >= 0) {
             const int field = s->soil.region_field;
+            double end[3];
+            mor_soil_find_unwrapped(&s->soil, i, end); /* as the start */
             fprintf(stream, "%lld,%s", (long long)id,
                     s->the_case->soils[field < 0 ? 0 : (int)set->data[field][i]].name);
             print_place(s, s->probes->memory[probe] + 3 * id, stream);
-            print_place(s, set->data[MOR_FIELD_POSITION] + 3 * i, stream);
+            print_place(s, end, stream);
             fputc('\n', stream);
         }
     }

@@ -92,8 +92,8 @@ mor_status mor_safety_body_find(mor_context *context, const mor_simulation *simu
         (mor_safety_body){.share = usual_share, .limit = usual_share * largest, .top = {NAN, NAN}, .toe = {NAN, NAN}};
     MOR_TRY(context, MOR_NEW(context, &body->is_part, reference->n, "the critical body"));
     find_parts(simulation, reference, body);
-    const mor_status status =
-        simulation->the_case->dimension == 2 ? find_ends(context, simulation, reference, body) : MOR_OK;
+    const bool may_end = simulation->the_case->dimension == 2 && !simulation->soil.period.is_any;
+    const mor_status status = may_end ? find_ends(context, simulation, reference, body) : MOR_OK;
     if (status != MOR_OK) {
         mor_safety_body_clear(context, body);
     }

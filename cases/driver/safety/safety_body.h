@@ -16,7 +16,7 @@ typedef struct mor_safety_body {
     double volume; /* m3; in plane strain the area, m2 */
     int64_t n;     /* particles that are part of it */
     bool *is_part; /* shape [particles at creation], by number; owned */
-    bool has_ends; /* in plane strain, where it reaches the surface */
+    bool has_ends; /* in plane strain, where it reaches the surface; never in a periodic domain */
     double top[2]; /* where it leaves the surface at its upper end, frame of the case, x and y, m; NaN without */
     double toe[2]; /* likewise at its lower end */
 } mor_safety_body;

@@ -42,6 +42,54 @@ static mor_status find_height(mor_context *context, const mor_simulation *simula
     return MOR_OK;
 }
 
+/* The normal of a layer without ends that is inclined: up without its parts along periodic axes, not normalized, whose
+ * length is the cosine of the slope; false where no periodic axis is inclined, so that heights are what they are. */
+static bool find_normal(const mor_simulation *simulation, double *normal)
+{
+    const double rounding = 1.0e-12; /* of directions */
+    bool is_inclined = false;
+    for (int a = 0; a < 3; ++a) {
+        const bool is_periodic = simulation->soil.period.length[a] > 0.0;
+        is_inclined = is_inclined || (is_periodic && fabs(simulation->up[a]) > rounding);
+        normal[a] = is_periodic ? 0.0 : simulation->up[a];
+    }
+    return is_inclined;
+}
+
+/* Thickness of that layer, m; it is the same whatever the period, as heights against gravity are not. */
+static double find_thickness(const mor_simulation *simulation, const double *normal)
+{
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (int64_t i = 0; i < simulation->soil.set.n_particles; ++i) {
+        const double at = mor_vector_dot(simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * i, normal);
+        low = fmin(low, at);
+        high = fmax(high, at);
+    }
+    return (high - low) / mor_vector_length(normal) + simulation->the_case->spacing;
+}
+
+/* Height of the slope, where it is not given, and depth of its soil against gravity, m. */
+static mor_status find_lengths(mor_context *context, const mor_simulation *simulation, double *height, double *depth)
+{
+    const double least = 1.0e-6; /* of the cosine of the slope */
+    double normal[3];
+    *depth = simulation->soil_depth;
+    if (!find_normal(simulation, normal)) {
+        return isnan(*height) ? find_height(context, simulation, height) : MOR_OK;
+    }
+    const double cosine = mor_vector_length(normal);
+    if (cosine > least) {
+        const double thickness = find_thickness(simulation, normal);
+        *height = isnan(*height) ? thickness : *height;
+        *depth = thickness / cosine;
+    }
+    MOR_CHECK(context, !isnan(*height), MOR_ERROR_CONFIG,
+              "found a gravity along the periodic axes alone, across which the soil has no thickness that could count "
+              "as the height of the slope; allowed: with a height of the slope; give one");
+    return MOR_OK;
+}
+
 static double find_slowest_wave(const mor_soil *soil)
 {
     double slowest = soil->sound_speed;
@@ -51,7 +99,7 @@ static double find_slowest_wave(const mor_soil *soil)
     return slowest;
 }
 
-static void set_scales(const mor_simulation *simulation, double height, mor_safety_reference *reference)
+static void set_scales(const mor_simulation *simulation, double height, double depth, mor_safety_reference *reference)
 {
     const mor_case *c = simulation->the_case;
     const double wave = find_slowest_wave(&simulation->soil);
@@ -59,8 +107,8 @@ static void set_scales(const mor_simulation *simulation, double height, mor_safe
     const double n = (double)simulation->soil.set.n_particles;
     reference->height = height;
     reference->gravity = mor_vector_length(simulation->soil.settings.gravity);
-    reference->settlement = 0.5 * reference->gravity * pow(simulation->soil_depth / wave, 2.0);
-    reference->period = 4.0 * simulation->soil_depth / wave;
+    reference->settlement = 0.5 * reference->gravity * pow(depth / wave, 2.0);
+    reference->period = 4.0 * depth / wave;
     reference->percent = 100.0 * (1.0 - fmin(fmax(cells, 1.0) / n, 0.5));
 }
 
@@ -88,10 +136,9 @@ mor_status mor_safety_reference_init(mor_context *context, const mor_simulation 
                                      mor_safety_reference *reference)
 {
     *reference = (mor_safety_reference){.n = 0};
-    if (isnan(height)) {
-        MOR_TRY(context, find_height(context, simulation, &height));
-    }
-    set_scales(simulation, height, reference);
+    double depth = 0.0;
+    MOR_TRY(context, find_lengths(context, simulation, &height, &depth));
+    set_scales(simulation, height, depth, reference);
     const mor_status status = copy_state(context, simulation, reference);
     if (status != MOR_OK) {
         mor_safety_reference_clear(context, reference);

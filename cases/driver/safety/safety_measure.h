@@ -26,9 +26,11 @@ typedef struct mor_safety_reference {
 
 /** Notes the state of a simulation.
  *  @param height    [in]      of the slope, m; NaN: the difference between the highest and the lowest place of the
- *                             soil's surface, or the depth of the soil where that is more than four times as large
+ *                             soil's surface, or the depth of the soil where that is more than four times as large;
+ *                             where gravity has a part along a periodic axis the thickness of the soil
  *  @param reference [out]     cleared after a failure
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG where no height is given and gravity has no part across the periodic axes;
+ *  MOR_ERROR_MEMORY. */
 mor_status mor_safety_reference_init(mor_context *context, const mor_simulation *simulation, double height,
                                      mor_safety_reference *reference);
 

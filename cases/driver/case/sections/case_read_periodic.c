@@ -106,26 +106,17 @@ static mor_status check_wall(const mor_case_reader *reader, const mor_case_node 
     return MOR_OK;
 }
 
-/* A plane through which mass is counted is met once in each period, or never. */
-static mor_status check_probe(const mor_case_reader *reader, const mor_case_node *node, const mor_case *c,
-                              const mor_case_probe *probe)
+/* The shape of a wall is known where it has moved to, not where faces have put it back. */
+static mor_status check_gap(mor_context *context, const mor_case *c, const mor_case_probe *probe)
 {
-    if (strcmp(probe->type, "mass_passed") != 0 && strcmp(probe->type, "mass_flow") != 0) {
-        return MOR_OK;
-    }
-    for (int a = 0; a < 3; ++a) {
-        const double along = fabs(probe->direction[a]);
-        if (mor_case_is_periodic(c, a) && along != 0.0 && along != 1.0) {
-            return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found probe '%s' whose plane is inclined to the periodic axis %c; allowed are "
-                                      "planes across and along it; correct its direction",
-                                      probe->name, "xyz"[a]);
-        }
-        if (mor_case_is_periodic(c, a) && probe->path != NULL) {
-            return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found domain.periodic with probe '%s' on a path; allowed are planes; give it an "
-                                      "origin and a direction",
-                                      probe->name);
+    for (int w = 0; w < c->n_walls; ++w) {
+        const mor_case_wall *wall = &c->walls[w];
+        if (strcmp(probe->type, "wall_gap") == 0 && strcmp(wall->name, probe->wall) == 0 &&
+            wall->outline.kind != MOR_CASE_SHAPE_HALF_SPACE && moves_along(c, wall)) {
+            return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                            "%s:%d: found domain.periodic with probe '%s' of the gap to wall '%s', which moves along a "
+                            "periodic axis; allowed are walls that do not, and half-spaces; remove the probe",
+                            probe->place.file, probe->place.line, probe->name, wall->name);
         }
     }
     return MOR_OK;
@@ -188,7 +179,8 @@ mor_status mor_case_reader_periodic(const mor_case_reader *reader, const mor_cas
         MOR_TRY(reader->context, check_wall(reader, node, c, &c->walls[w]));
     }
     for (int k = 0; k < c->n_probes; ++k) {
-        MOR_TRY(reader->context, check_probe(reader, node, c, &c->probes[k]));
+        MOR_TRY(reader->context, mor_case_reader_periodic_probe(reader->context, c, &c->probes[k]));
+        MOR_TRY(reader->context, check_gap(reader->context, c, &c->probes[k]));
     }
     return MOR_OK;
 }

@@ -128,6 +128,11 @@ mor_status mor_case_reader_check(const mor_case_reader *reader, const mor_case_n
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_periodic(const mor_case_reader *reader, const mor_case_node *root, const mor_case *the_case);
 
+/** Refuses a probe that would measure where faces have put soil, not where it has come; docs/theory/periodic.md.
+ *  @param the_case [in]  whose domain is periodic; the gravity is known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG, with the place of the probe. */
+mor_status mor_case_reader_periodic_probe(mor_context *context, const mor_case *the_case, const mor_case_probe *probe);
+
 /** Refuses the name of a wall, soil, gauge or body that the case does not have.
  *  @param node     [in]  the group that holds the key
  *  @param the_case [in]  walls, soils, bodies and gauges are known

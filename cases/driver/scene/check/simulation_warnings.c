@@ -36,6 +36,24 @@ static void warn_of_gas(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* A field that repeats itself before it has changed. */
+static void warn_of_period(mor_context *context, const mor_case *c, const mor_case_soil *soil,
+                           const mor_case_field *field)
+{
+    const double advised = 2.0; /* correlation lengths; beyond, the correlation is near that asked for */
+    for (int a = 0; a < 3; ++a) {
+        const double length = c->domain_maximum[a] - c->domain_minimum[a];
+        if (mor_case_is_periodic(c, a) && isfinite(field->correlation_length[a]) &&
+            length < advised * field->correlation_length[a]) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s', field of '%s': the domain repeats itself along %c after %.3g correlation "
+                            "lengths, so that the field is nearly constant along it; at least %g are advisable: a "
+                            "longer domain or a shorter correlation length",
+                            soil->name, field->parameter, "xyz"[a], length / field->correlation_length[a], advised);
+        }
+    }
+}
+
 /* Values that were changed to lie within limits, and fields that change from one particle to the next. */
 static void warn_of_field(mor_context *context, const mor_case *c, const mor_case_soil *soil, int k,
                           const mor_simulation_field *found)
@@ -51,6 +69,9 @@ static void warn_of_field(mor_context *context, const mor_case *c, const mor_cas
                         100.0 * (double)found->n_raised / (double)found->n, (long long)found->n_lowered,
                         100.0 * (double)found->n_lowered / (double)found->n, found->mean,
                         sqrt(found->squares / (double)found->n));
+    }
+    if (field->distribution != MOR_CASE_DISTRIBUTION_NONE) {
+        warn_of_period(context, c, soil, field);
     }
     for (int a = 0; a < c->dimension && field->distribution != MOR_CASE_DISTRIBUTION_NONE; ++a) {
         if (field->correlation_length[a] < resolved * c->spacing) {

@@ -69,8 +69,13 @@ static mor_status make_field(mor_context *context, region_fields *it, int k)
     if (field->distribution == MOR_CASE_DISTRIBUTION_NONE) {
         return MOR_OK;
     }
+    double periods[3];
+    for (int a = 0; a < 3; ++a) {
+        const mor_case *c = it->the_case;
+        periods[a] = mor_case_is_periodic(c, a) ? c->domain_maximum[a] - c->domain_minimum[a] : 0.0;
+    }
     const uint64_t purpose = mor_hash_bytes(field->parameter, strlen(field->parameter));
-    return mor_random_field_new(context, (mor_random_correlation)field->correlation, field->correlation_length,
+    return mor_random_field_new(context, (mor_random_correlation)field->correlation, field->correlation_length, periods,
                                 field->seed, purpose, &it->waves[k]);
 }
 

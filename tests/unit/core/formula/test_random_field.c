@@ -32,7 +32,7 @@ static void fill(mor_context *context, mor_random_correlation correlation, ensem
 {
     for (int k = 0; k < FIELDS; ++k) {
         mor_random_field *field = NULL;
-        assert_int_equal(mor_random_field_new(context, correlation, lengths, (uint64_t)k, 5, &field), MOR_OK);
+        assert_int_equal(mor_random_field_new(context, correlation, lengths, NULL, (uint64_t)k, 5, &field), MOR_OK);
         for (int at = 0; at <= LAGS; ++at) {
             it->values[at][k] = mor_random_field_value(field, places[at]);
         }
@@ -120,7 +120,8 @@ static void one_field_has_in_space_what_the_ensemble_has(void **state)
     double products = 0.0;
     (void)state;
     mor_context_init(&context);
-    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_SQUARED_EXPONENTIAL, lengths, 11, 0, &field), MOR_OK);
+    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_SQUARED_EXPONENTIAL, lengths, NULL, 11, 0, &field),
+                     MOR_OK);
     for (int i = 0; i < POINTS; ++i) {
         values[i] = mor_random_field_value(field, (const double[3]){0.1 * i, 0.0, 0.0});
     }
@@ -144,8 +145,9 @@ static void seeds_and_purposes_are_independent(void **state)
         for (int which = 0; which < 3; ++which) {
             mor_random_field *field = NULL;
             const uint64_t seed = (uint64_t)(2 * k) + (which == 1);
-            assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, lengths, seed, which == 2, &field),
-                             MOR_OK);
+            assert_int_equal(
+                mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, lengths, NULL, seed, which == 2, &field),
+                MOR_OK);
             values[which][k] = mor_random_field_value(field, places[0]);
             mor_random_field_free(&context, &field);
         }
@@ -165,9 +167,9 @@ static void values_depend_on_place_and_seed_alone(void **state)
     mor_random_field *scaled = NULL;
     (void)state;
     mor_context_init(&context);
-    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, lengths, 3, 1, &first), MOR_OK);
-    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, lengths, 3, 1, &second), MOR_OK);
-    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, larger, 3, 1, &scaled), MOR_OK);
+    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, lengths, NULL, 3, 1, &first), MOR_OK);
+    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, lengths, NULL, 3, 1, &second), MOR_OK);
+    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_EXPONENTIAL, larger, NULL, 3, 1, &scaled), MOR_OK);
     for (int at = LAGS; at >= 0; --at) {
         const double value = mor_random_field_value(first, places[at]);
         double far[3];
@@ -190,11 +192,58 @@ static void an_infinite_length_means_no_change(void **state)
     mor_random_field *field = NULL;
     (void)state;
     mor_context_init(&context);
-    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_SQUARED_EXPONENTIAL, layered, 1, 0, &field), MOR_OK);
+    assert_int_equal(mor_random_field_new(&context, MOR_RANDOM_SQUARED_EXPONENTIAL, layered, NULL, 1, 0, &field),
+                     MOR_OK);
     const double value = mor_random_field_value(field, (const double[3]){0.0, 1.0, 0.0});
     assert_true(mor_random_field_value(field, (const double[3]){1.0e3, 1.0, -7.0}) == value); /* exact: zero times it */
     assert_true(mor_random_field_value(field, (const double[3]){0.0, 2.0, 0.0}) != value);
     mor_random_field_free(&context, &field);
+}
+
+/* [RF6] along one axis, with a tail of images that falls as exp(-2 n L / length). */
+static double find_periodic(mor_random_correlation correlation, double lag, double period)
+{
+    double sum = 0.0;
+    for (int n = -20; n <= 20; ++n) {
+        const double at = lag + n * period;
+        const double turn = MOR_PI * at / period;
+        sum += mor_random_correlation_at(correlation, lengths, (const double[3]){at, 0.0, 0.0}) *
+               (turn == 0.0 ? 1.0 : sin(turn) / turn);
+    }
+    return sum;
+}
+
+/* A period of three correlation lengths: values come back exactly but for the rounding of angles, and the correlation
+ * of the ensemble is that of the waves that fit. Halfway it is not that of a field without period. */
+static void a_field_repeats_itself_with_its_period(void **state)
+{
+    static const double period[3] = {6.0, 0.0, 0.0};
+    static const double at[3] = {0.1, -1.2, 4.0};
+    static const double lags[3] = {0.5, 2.0, 3.0};
+    mor_context context;
+    (void)state;
+    mor_context_init(&context);
+    for (int which = 0; which < 2; ++which) {
+        const mor_random_correlation correlation = which == 0 ? MOR_RANDOM_EXPONENTIAL : MOR_RANDOM_SQUARED_EXPONENTIAL;
+        double products[4] = {0.0, 0.0, 0.0, 0.0};
+        for (int k = 0; k < FIELDS; ++k) {
+            mor_random_field *field = NULL;
+            assert_int_equal(mor_random_field_new(&context, correlation, lengths, period, (uint64_t)k, 5, &field),
+                             MOR_OK);
+            const double value = mor_random_field_value(field, at);
+            assert_near(mor_random_field_value(field, (const double[3]){at[0] + 6.0, at[1], at[2]}), value, 1.0e-6);
+            products[3] += value * value / FIELDS;
+            for (int k_lag = 0; k_lag < 3; ++k_lag) {
+                const double other[3] = {at[0] + lags[k_lag], at[1], at[2]};
+                products[k_lag] += value * mor_random_field_value(field, other) / FIELDS;
+            }
+            mor_random_field_free(&context, &field);
+        }
+        assert_near(products[3], 1.0, sure * sqrt(2.0 / FIELDS));
+        for (int k = 0; k < 3; ++k) {
+            assert_near(products[k], find_periodic(correlation, lags[k], 6.0), sure * sqrt(2.0 / FIELDS));
+        }
+    }
 }
 
 int main(void)
@@ -206,6 +255,7 @@ int main(void)
         cmocka_unit_test(seeds_and_purposes_are_independent),
         cmocka_unit_test(values_depend_on_place_and_seed_alone),
         cmocka_unit_test(an_infinite_length_means_no_change),
+        cmocka_unit_test(a_field_repeats_itself_with_its_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
