@@ -7,9 +7,9 @@
  * the middle of the soil they must change nothing. */
 
 static const char *const plane_period[] = {"domain.periodic=x", NULL};
-static const char *const space_period[] = {"domain.periodic=xy", "domain.min=(-0.048, -0.12, -0.05)",
+static const char *const space_period[] = {"domain.periodic=xy", "domain.min=(-0.072, -0.12, -0.05)",
                                            "domain.max=(0.168, 0.12, 0.15)", NULL};
-static const char *const space_box[] = {"domain.min=(-0.048, -0.12, -0.05)", "domain.max=(0.168, 0.12, 0.15)", NULL};
+static const char *const space_box[] = {"domain.min=(-0.072, -0.12, -0.05)", "domain.max=(0.168, 0.12, 0.15)", NULL};
 
 /* The order of the particles, and with it that of all sums, then is the same wherever the faces lie. */
 static const char *const one_order[] = {"numerics.sort_interval=1000000", NULL};

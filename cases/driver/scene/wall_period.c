@@ -2,7 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/wall_period.h"
 
+#include <math.h>
 #include <string.h>
+
+/* Spacings by which a wall may differ at two faces that are one. */
+#define UNLIKE 0.25
 
 /* Whether a point lies between the faces of all periodic axes, the highest one excluded. */
 static bool is_between(const mor_case *c, const double *point)
@@ -57,6 +61,39 @@ static mor_status check_end(mor_context *context, const mor_case *c, int wall, i
     return MOR_OK;
 }
 
+/* The distance of a place from a wall, within a spacing on either side of its surface: farther ends do not count, m. */
+static double find_near_distance(const mor_case *c, const mor_shape *shape, const double *place)
+{
+    return fmax(-c->spacing, fmin(shape->operations->distance(shape, place), c->spacing));
+}
+
+/* What a wall is at one face it must be at the other: a part that crosses one alone would be cut off there. */
+static mor_status check_repetition(mor_context *context, const mor_case *c, int wall, int64_t n_points,
+                                   const double *points, int axis, int side)
+{
+    const mor_case_wall *it = &c->walls[wall];
+    const double length = c->domain_maximum[axis] - c->domain_minimum[axis];
+    const double face = side > 0 ? c->domain_maximum[axis] : c->domain_minimum[axis];
+    for (int64_t i = 0; i < n_points; ++i) {
+        double here[3];
+        double there[3];
+        if (side * (face - points[3 * i + axis]) >= c->spacing) {
+            continue;
+        }
+        memcpy(here, points + 3 * i, sizeof here);
+        here[axis] = face;
+        memcpy(there, here, sizeof there);
+        there[axis] = face - side * length;
+        const double difference = find_near_distance(c, it->shape, here) - find_near_distance(c, it->shape, there);
+        MOR_CHECK(context, fabs(difference) <= UNLIKE * c->spacing, MOR_ERROR_CONFIG,
+                  "%s:%d: found wall '%s' at (%.4g, %.4g, %.4g) m on a periodic face, but not as it is there on the "
+                  "opposite one, %c = %g m; allowed are walls that are the same on both; move it between the faces, or "
+                  "let it go through both",
+                  it->place.file, it->place.line, it->name, here[0], here[1], here[2], "xyz"[axis], there[axis]);
+    }
+    return MOR_OK;
+}
+
 mor_status mor_wall_period_keep(mor_context *context, const mor_case *the_case, int wall, int64_t *n_points,
                                 double *points, double *shares)
 {
@@ -67,6 +104,7 @@ mor_status mor_wall_period_keep(mor_context *context, const mor_case *the_case, 
     for (int a = 0; a < 3; ++a) {
         for (int side = -1; side <= 1 && mor_case_is_periodic(the_case, a); side += 2) {
             MOR_TRY(context, check_end(context, the_case, wall, *n_points, points, a, side));
+            MOR_TRY(context, check_repetition(context, the_case, wall, *n_points, points, a, side));
         }
     }
     return MOR_OK;
