@@ -129,7 +129,7 @@ static const refusal refusals[] = {
     {"walls[0].path={table=({time=0;}, {time=1; angle=1;});}", "that rotates"},
     {"walls[0].shape={type=\"box\"; min=(0, -1, -0.2); max=(1, 1, 0);}", "ending at the periodic face x = 0 m"},
     {"walls[0].shape={type=\"box\"; min=(-1, -1, -0.2); max=(0, 1, 0);}", "without a single particle"},
-    {"walls[0].shape={type=\"box\"; min=(0.3, -1, -0.2); max=(1, 1, 0);}", "but not as it is there on the opposite one"},
+    {"walls[0].shape={type=\"box\"; min=(0.3, -1, -0.2); max=(1, 1, 0);}", "but not as it is there"},
     {"bodies[0].position=(0.07, 0.2, 0.16)", "body 0 of "},
 };
 
