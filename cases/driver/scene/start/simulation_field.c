@@ -242,14 +242,17 @@ static mor_status set_region(mor_context *context, mor_simulation *simulation, i
         find_normals(context, &it, simulation->soil.set.data[MOR_FIELD_POSITION]);
         status = set_particles(context, simulation, soil, &it);
     }
-    if (!mor_case_takes_over(simulation->the_case, soil)) { /* else the particles bring their values */
-        memcpy(simulation->fields[soil], it.reports, sizeof it.reports);
+    for (int k = 0; k < it.soil->n_fields; ++k) {
+        if (!it.soil->fields[k].is_taken) { /* else the particles bring their values */
+            simulation->fields[soil][k] = it.reports[k];
+        }
     }
     clear_region(context, &it);
     return status;
 }
 
-/* Another region's field is the parameter of this one's material, where its law has one of that name and unit. */
+/* A field of another region is the parameter of this one's material, where its law has one of that name and unit; this
+ * one's own come after it. */
 static void set_constants(mor_simulation *simulation, int soil, int64_t first, int64_t n)
 {
     const mor_case_soil *it = &simulation->the_case->soils[soil];
@@ -257,7 +260,10 @@ static void set_constants(mor_simulation *simulation, int soil, int64_t first, i
     const mor_schema *state = simulation->soil.material->material->state;
     for (int k = 0; k < simulation->soil.material->n_state; ++k) {
         const int entry = mor_params_find(own, state[k].key);
-        if (entry >= 0 && own[entry].kind == MOR_SCHEMA_REAL && strcmp(own[entry].unit, state[k].unit) == 0) {
+        const bool is_parameter = mor_simulation_is_parameter(simulation, simulation->soil.state_fields[k]) &&
+                                  mor_params_find(it->law->state, state[k].key) < 0;
+        if (is_parameter && entry >= 0 && own[entry].kind == MOR_SCHEMA_REAL &&
+            strcmp(own[entry].unit, state[k].unit) == 0) {
             for (int64_t i = first; i < first + n; ++i) {
                 simulation->soil.set.data[simulation->soil.state_fields[k]][i] =
                     it->parameters[mor_params_offset(own, entry)];
@@ -276,11 +282,10 @@ mor_status mor_simulation_set_fields(mor_context *context, mor_simulation *simul
         has_fields = has_fields || c->soils[k].n_fields > 0;
     }
     for (int k = 0; k < c->n_soils && has_fields; ++k) {
+        set_constants(simulation, k, first, regions[k].n_points);
         if (c->soils[k].n_fields > 0) {
             MOR_TRY(context, set_region(context, simulation, k, first, regions[k].n_points));
             mor_varied_set_assigned(find_material(simulation, k), 1);
-        } else {
-            set_constants(simulation, k, first, regions[k].n_points);
         }
         first += regions[k].n_points;
     }
