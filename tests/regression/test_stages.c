@@ -156,6 +156,91 @@ static void a_stage_fills_and_is_resumed_with_the_same_bits(void **state)
     assert_near(mass, 8000.0 + 3600.0, 1e-6);
 }
 
+/* Two columns that collapse, side by side: blocks of 256 particles hold one of them, or both. */
+#define CASE_OF_COLUMNS(start)                                                                                         \
+    start                                                                                                              \
+        "title = 'columns'; dimension = 2; spacing = '20 mm'; gravity = (0, -9.81); end = '0.1 s';"                    \
+        "domain = { min = (-1, -0.1); max = (2, 1); };"                                                                \
+        "soil = ( { name = 'a'; shape = { type = 'box'; min = (0, 0); max = (0.3, 0.6); }; " SAND " },"                \
+        "  { name = 'b'; shape = { type = 'box'; min = (0.3, 0); max = (0.6, 0.6); }; " SAND " } );"                   \
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"          \
+        "probes = ( { name = 'balance'; type = 'energy_balance'; } ); output = { snapshots = 1; pictures = false; };"
+#define SAND                                                                                                           \
+    "material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"           \
+    "  friction_angle = '20 deg'; };"
+
+enum { COLUMNS = 2 * 450 };
+
+static void read_columns(mor_session *session, double *position, double *velocity, double *soil)
+{
+    assert_int_equal(mor_session_n_particles(session, "soil"), COLUMNS);
+    assert_int_equal(mor_session_read_field(session, "soil", "position", position, 3 * COLUMNS), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "velocity", velocity, 3 * COLUMNS), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "soil", soil, COLUMNS), MOR_OK);
+}
+
+static void note_stop(void *user, mor_log_level level, const char *text)
+{
+    if (level == MOR_LOG_WARNING && strstr(text, "is stopped at once, which takes a kinetic energy of") != NULL) {
+        *(int *)user += 1;
+    }
+}
+
+/* It moved in the run before at about g t, 1 m/s, and stands to the last bit until it is released. */
+static void soil_taken_over_stands_until_it_is_released(void **state)
+{
+    static double place[2][3 * COLUMNS], velocity[3 * COLUMNS], soil[COLUMNS];
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    int n_warnings = 0;
+    double moved = 0.0;
+    run_cut(folder, CASE_OF_COLUMNS(""), "falling");
+    finished_run_store_text(folder, CASE_OF_COLUMNS("start_from = 'falling';"), path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    mor_session_set_log(session, note_stop, &n_warnings);
+    assert_int_equal(mor_session_override(session, "soil[0].released=1"), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_make_ready(session);
+    assert_int_equal(n_warnings, 1);
+    read_columns(session, place[0], velocity, soil);
+    for (int k = 0; k < 100; ++k) {
+        assert_int_equal(mor_session_step(session), MOR_OK);
+    }
+    read_columns(session, place[1], velocity, soil);
+    for (int i = 0; i < COLUMNS; ++i) {
+        const double *x = place[1] + 3 * i;
+        const double way = hypot(x[0] - place[0][3 * i], x[1] - place[0][3 * i + 1]);
+        const double speed = hypot(velocity[3 * i], velocity[3 * i + 1]);
+        assert_true(soil[i] == 1.0 || (way == 0.0 && speed == 0.0));
+        moved = fmax(moved, way);
+    }
+    assert_true(moved > 0.02); /* the other one goes on: a spacing */
+    mor_session_free(&session);
+}
+
+#define CASE_OF_ROUND(start, from, to)                                                                                 \
+    start "title = 'round'; dimension = 2; spacing = '10 mm'; gravity = (0, 0); end = '0.1 s';"                        \
+          "domain = { min = (" from ", -0.1); max = (" to ", 0.2); periodic = 'x'; };"                                 \
+          "soil = ( { name = 'block'; velocity = (3, 0); shape = { type = 'box'; min = (0, 0); max = (0.2, 0.1); };"   \
+          "  material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"   \
+          "    friction_angle = '20 deg'; cohesion = '10 kPa'; }; } );"                                                \
+          "probes = ( { name = 'x'; type = 'center_of_mass'; direction = (1, 0); } );"                                 \
+          "output = { snapshots = 1; pictures = false; };"
+
+/* 3 m/s for 0.1 s in a domain of 0.2 m: all of it has gone round once, half of it twice. A stage with a longer domain
+ * begins where the soil is in it, and goes on by 0.3 m. */
+static void periodic_faces_are_crossed_anew_in_a_stage(void **state)
+{
+    run_folder *folder = *state;
+    run_cut(folder, CASE_OF_ROUND("", "0", "0.2"), "round");
+    run_cut(folder, CASE_OF_ROUND("start_from = 'round';", "-0.3", "0.3"), "longer");
+    assert_near(finished_run_read_value(folder, "round", "x", -1), 0.4, 1e-9); /* rounding of some hundred steps */
+    const double first = finished_run_read_value(folder, "longer", "x", 0);
+    assert_near(first, 0.1, 1e-9); /* a full domain */
+    assert_near(finished_run_read_value(folder, "longer", "x", -1) - first, 0.3, 1e-9);
+}
+
 static void runs_that_do_not_fit_are_refused(void **state)
 {
     static const char *const wrong[][2] = {
@@ -193,6 +278,10 @@ int main(void)
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_cut_in_stages_is_the_cut_in_one_go, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stage_fills_and_is_resumed_with_the_same_bits, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soil_taken_over_stands_until_it_is_released, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(periodic_faces_are_crossed_anew_in_a_stage, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(runs_that_do_not_fit_are_refused, run_folder_setup, run_folder_teardown),
     };

@@ -163,6 +163,7 @@ static double stop_region(mor_set *set, int64_t first, int64_t n, double *fastes
 static void stop_held_soil(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation)
 {
     const mor_case *c = taken->the_case;
+    const double rest = simulation->soil.settings.scheme.sleep_speed * sqrt(mor_vector_length(c->gravity) * c->spacing);
     int64_t first = 0;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
@@ -171,7 +172,7 @@ static void stop_held_soil(mor_context *context, const mor_taken_soil *taken, mo
         if (it->released > 0.0 && mor_taken_soil_has(taken, k)) {
             const double energy = stop_region(&simulation->soil.set, first, n, &fastest);
             mor_context_log(
-                context, fastest > 0.0 ? MOR_LOG_WARNING : MOR_LOG_INFO,
+                context, fastest > rest ? MOR_LOG_WARNING : MOR_LOG_INFO,
                 "%s:%d: soil '%s' stands until %g s: it moved at up to %.3g m/s at the end of the run '%s', "
                 "and is stopped at once, which takes a kinetic energy of %.4g %s; let that run end at "
                 "rest, or remove released",
