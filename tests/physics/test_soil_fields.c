@@ -541,6 +541,16 @@ static void what_another_soil_varied_is_not_kept(void **state)
     free(region);
     free_soil(&it);
     free_soil(&first);
+    /* Of b, the friction angles that it brings are below a dilation angle that the stage gives it. */
+    mor_session *session = open_session();
+    assert_int_equal(mor_session_override(session, "soil[1].material.dilation_angle=0.28"), MOR_OK);
+    assert_int_equal(mor_session_load_text(session, "fields.cfg", stage), MOR_OK);
+    assert_int_equal(mor_session_build(session), MOR_ERROR_CONFIG);
+    const char *message = mor_session_message(session);
+    if (strstr(message, "soil 'b', whose fields are taken over from the run") == NULL) {
+        fail_msg("%s", message);
+    }
+    mor_session_free(&session);
 }
 
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */

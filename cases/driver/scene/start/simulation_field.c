@@ -201,6 +201,16 @@ static mor_material_instance *find_material(const mor_simulation *simulation, in
     return simulation->parts[soil] != NULL ? simulation->parts[soil] : simulation->material;
 }
 
+/* Whether particles bring values, which are not known yet. */
+static bool has_taken(const mor_case_soil *soil)
+{
+    bool has = false;
+    for (int k = 0; k < soil->n_fields; ++k) {
+        has = has || soil->fields[k].is_taken;
+    }
+    return has;
+}
+
 static mor_status set_particles(mor_context *context, mor_simulation *simulation, int soil, region_fields *it)
 {
     const mor_case_reduction *reduction = &it->the_case->reduction;
@@ -223,7 +233,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
             simulation->soil.set.data[mor_simulation_find_field(simulation, schema[entries[k]].key)][it->first + i] =
                 given[offset];
         }
-        if (mor_varied_check(context, find_material(simulation, soil), used) != MOR_OK) {
+        if (!has_taken(it->soil) && mor_varied_check(context, find_material(simulation, soil), used) != MOR_OK) {
             char why[MOR_CONTEXT_MESSAGE_BYTES];
             snprintf(why, sizeof why, "%.1300s; change the formula or the mean, or give the field a minimum or maximum",
                      context->message);
@@ -288,6 +298,43 @@ mor_status mor_simulation_set_fields(mor_context *context, mor_simulation *simul
             mor_varied_set_assigned(find_material(simulation, k), 1);
         }
         first += regions[k].n_points;
+    }
+    return MOR_OK;
+}
+
+static mor_status check_particle(mor_context *context, const mor_simulation *simulation, int soil, int64_t particle)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_case_soil *it = &c->soils[soil];
+    double used[MOR_CASE_PARAMETERS_MAX];
+    memcpy(used, it->parameters, sizeof used);
+    for (int k = 0; k < it->n_fields; ++k) {
+        const int field = mor_simulation_find_field(simulation, it->fields[k].parameter);
+        used[mor_params_offset(it->law->parameters, it->fields[k].entry)] = simulation->soil.set.data[field][particle];
+    }
+    if (mor_varied_check(context, find_material(simulation, soil), used) == MOR_OK) {
+        return MOR_OK;
+    }
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
+    double place[3];
+    snprintf(why, sizeof why, "%.1300s", context->message);
+    mor_simulation_take_point_back(c, simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * particle, place);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "%s:%d: soil '%s', whose fields are taken over from the run '%s', at (%.6g, %.6g, %.6g) m: %s; "
+                    "change the parameters of its material, or the fields that are new",
+                    it->place.file, it->place.line, it->name, c->stage.run, place[0], place[1], place[2], why);
+}
+
+mor_status mor_simulation_check_fields(mor_context *context, const mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    int64_t first = 0;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const int64_t end = first + simulation->region_particles[k];
+        for (int64_t i = first; i < end && has_taken(&c->soils[k]); ++i) {
+            MOR_TRY(context, check_particle(context, simulation, k, i));
+        }
+        first = end;
     }
     return MOR_OK;
 }

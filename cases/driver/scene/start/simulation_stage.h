@@ -62,7 +62,8 @@ mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken
  *  same soil of the run, else it is what the case says. Soil that is not released loses its velocity, which is logged.
  *  Crossings of periodic faces begin anew.
  *  @param simulation [in,out]  its soil, initialized, particles in the order of the regions
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the run lacks a state variable of a law; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the run lacks a state variable of a law, or a law refuses what the
+ *  particles bring; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation);
 
 /** Gives bodies and their contact the state of the run that the case starts from; those of a kind that the run did not

@@ -4,6 +4,7 @@
 #include "cases/driver/scene/start/simulation_stage.h"
 
 #include "cases/driver/scene/simulation_fields.h"
+#include "cases/driver/scene/start/simulation_field.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
@@ -205,6 +206,7 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
     }
     status = status == MOR_OK ? warn_of_lost_fields(context, taken, values) : status;
     MOR_FREE(context, &values);
+    status = status == MOR_OK ? mor_simulation_check_fields(context, simulation) : status;
     tell_fields(context, taken);
     stop_held_soil(context, taken, simulation);
     for (int64_t i = 0; i < soil->set.n_particles && status == MOR_OK; ++i) {
