@@ -241,6 +241,44 @@ static void periodic_faces_are_crossed_anew_in_a_stage(void **state)
     assert_near(finished_run_read_value(folder, "longer", "x", -1) - first, 0.3, 1e-9);
 }
 
+/* A block that has gone on by 0.3 spacings loses its front half, and new soil fills the gap: across the periodic face,
+ * too, it is left out where it would be nearer than 0.75 spacings to what is there. */
+static void new_soil_does_not_overlap_across_a_periodic_face(void **state)
+{
+    enum { ROOM = 400 };
+    static const char fill[] =
+        "start_from = 'shifted'; excavate = ( { type = 'box'; min = (0.1, -1); max = (0.3, 1); } );"
+        "title = 'fill'; dimension = 2; spacing = '10 mm'; gravity = (0, 0); end = '1 ms';"
+        "domain = { min = (0, -0.1); max = (0.2, 0.2); periodic = 'x'; };"
+        "soil = ( { name = 'block'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.1); };" SAND " },"
+        "  { name = 'new'; shape = { type = 'box'; min = (0.1, 0); max = (0.2, 0.1); };" SAND " } );";
+    static double x[3 * ROOM];
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    double nearest = INFINITY;
+    finished_run_store_text(folder, CASE_OF_ROUND("", "0", "0.2"), path);
+    const char *const slow[] = {"soil[0].velocity=(-0.06, 0)", "end=0.05"};
+    const session_run it = {
+        .case_path = path, .name = "shifted", .settings = slow, .n_settings = 2, .stop_at = NAN, .n_threads = 1};
+    session_run_do(folder, &it, "shifted");
+    finished_run_store_text(folder, fill, path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_expect(session, mor_session_build(session), MOR_OK, "");
+    const int n = (int)mor_session_n_particles(session, "soil");
+    assert_in_range(n, 150, ROOM);
+    assert_int_equal(mor_session_read_field(session, "soil", "position", x, 3 * n), MOR_OK);
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < i; ++j) {
+            const double offset = x[3 * i] - x[3 * j];
+            nearest = fmin(nearest, hypot(offset - 0.2 * rint(offset / 0.2), x[3 * i + 1] - x[3 * j + 1]));
+        }
+    }
+    assert_true(nearest >= 0.75 * 0.01 - 1e-12); /* rounding */
+    mor_session_free(&session);
+}
+
 static void runs_that_do_not_fit_are_refused(void **state)
 {
     static const char *const wrong[][2] = {
@@ -282,6 +320,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(soil_taken_over_stands_until_it_is_released, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(periodic_faces_are_crossed_anew_in_a_stage, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(new_soil_does_not_overlap_across_a_periodic_face, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(runs_that_do_not_fit_are_refused, run_folder_setup, run_folder_teardown),
     };

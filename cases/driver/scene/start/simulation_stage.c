@@ -261,6 +261,24 @@ static bool is_near(const mor_taken_soil *taken, const cell_entry *entries, cons
     return false;
 }
 
+/* Likewise of the place or of one of its images beyond periodic faces, where nothing is placed or turned. */
+static bool is_image_near(const mor_taken_soil *taken, const cell_entry *entries, const double *place, double distance)
+{
+    const mor_case *c = taken->the_case;
+    bool is = false;
+    for (int k = 0; k < 27 && !is; ++k) {
+        const int steps[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        double image[3];
+        bool is_image = true;
+        for (int a = 0; a < 3; ++a) {
+            is_image = is_image && (steps[a] == 0 || mor_case_is_periodic(c, a));
+            image[a] = steps[a] == 0 ? place[a] : place[a] + steps[a] * (c->domain_maximum[a] - c->domain_minimum[a]);
+        }
+        is = is_image && is_near(taken, entries, image, distance);
+    }
+    return is;
+}
+
 mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken, int soil, mor_lattice_points *points)
 {
     const mor_case *c = taken->the_case;
@@ -277,7 +295,7 @@ mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken
     }
     qsort(entries, (size_t)taken->n_taken, sizeof *entries, compare_cells);
     for (int64_t i = 0; i < points->n_points; ++i) {
-        if (!is_near(taken, entries, points->positions + 3 * i, distance)) {
+        if (!is_image_near(taken, entries, points->positions + 3 * i, distance)) {
             memmove(points->positions + 3 * n_kept++, points->positions + 3 * i, 3 * sizeof *points->positions);
         }
     }
