@@ -112,16 +112,6 @@ static void expect_same_motion(const soil *a, const soil *b)
     assert_memory_equal(a->stress, b->stress, (size_t)(6 * a->n) * sizeof(double));
 }
 
-/* The number of the soil of each particle; of a case that is built for it. */
-static double *read_regions(const char *text, int64_t n)
-{
-    mor_session *session = build(text);
-    double *regions = read_field(session, "soil", 1, n);
-    mor_session_free(&session);
-    assert_non_null(regions);
-    return regions;
-}
-
 /* ---- Bits -------------------------------------------------------------------------------------------------------- */
 
 /* A column that yields: one region with some fields. */
@@ -504,55 +494,6 @@ static void a_stage_gives_fields_to_soil_that_had_none(void **state)
     free_soil(&it);
 }
 
-#define TWO(a, b)                                                                                                      \
-    HEAD "spacing = 0.25;\n"                                                                                           \
-         "soil = ( { name = \"a\"; shape = { type = \"box\"; min = (0, 0); max = (4, 2); };\n" CLAY a " },\n"          \
-         "         { name = \"b\"; shape = { type = \"box\"; min = (0, 2); max = (4, 4); };\n" CLAY b " } );\n"
-#define FIELD(parameter, formula) "{ parameter = \"" parameter "\"; formula = \"" formula "\"; }"
-
-/* Whether a soil brings its values is asked of this soil: what b varies for the first time is that of the stage though
- * a varied it before, and though b had a field of another parameter. */
-static void what_another_soil_varied_is_not_kept(void **state)
-{
-    static const char before[] = TWO("fields = (" FIELD("cohesion", "1e3*(1 + x)") ");",
-                                     "fields = (" FIELD("friction_angle", "0.2 + 0.01*x") ");");
-    static const char after[] =
-        TWO("fields = (" FIELD("cohesion", "9e3") ");",
-            "fields = (" FIELD("friction_angle", "0.5") "," FIELD("cohesion", "3e3 + 10*x") ");");
-    char stage[2 * TEXT_BYTES];
-    char path[MOR_PATH_BYTES];
-    run_folder *folder = *state;
-    soil first = start(before);
-    run(folder, "two", before);
-    snprintf(stage, sizeof stage, "start_from = \"%s\";\n%s", run_folder_file(folder, path, "two"), after);
-    soil it = start(stage);
-    double *region = read_regions(stage, it.n);
-    assert_int_equal(it.n, first.n);
-    for (int64_t i = 0; i < it.n; ++i) {
-        const double x = it.position[3 * i];
-        if (region[i] == 0.0) { /* moved by less than 20 mm since; its friction angle is that of the material */
-            assert_near(it.cohesion[i], 1e3 * (1.0 + x), 20.0);
-            assert_true(it.friction[i] == 0.3);
-        } else {
-            assert_near(it.cohesion[i], 3e3 + 10.0 * x, 1e-9); /* rounding */
-            assert_near(it.friction[i], 0.2 + 0.01 * x, 2e-4);
-        }
-    }
-    free(region);
-    free_soil(&it);
-    free_soil(&first);
-    /* Of b, the friction angles that it brings are below a dilation angle that the stage gives it. */
-    mor_session *session = open_session();
-    assert_int_equal(mor_session_override(session, "soil[1].material.dilation_angle=0.28"), MOR_OK);
-    assert_int_equal(mor_session_load_text(session, "fields.cfg", stage), MOR_OK);
-    assert_int_equal(mor_session_build(session), MOR_ERROR_CONFIG);
-    const char *message = mor_session_message(session);
-    if (strstr(message, "soil 'b', whose fields are taken over from the run") == NULL) {
-        fail_msg("%s", message);
-    }
-    mor_session_free(&session);
-}
-
 /* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static void what_has_no_sense_is_refused_with_its_line(void **state)
@@ -644,7 +585,6 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stage_gives_fields_to_soil_that_had_none, run_folder_setup,
                                         run_folder_teardown),
-        cmocka_unit_test_setup_teardown(what_another_soil_varied_is_not_kept, run_folder_setup, run_folder_teardown),
         cmocka_unit_test(what_has_no_sense_is_refused_with_its_line),
         cmocka_unit_test(a_parameter_without_a_role_is_refused),
     };

@@ -279,6 +279,63 @@ static void new_soil_does_not_overlap_across_a_periodic_face(void **state)
     mor_session_free(&session);
 }
 
+#define CASE_OF_FIELDS(start, of_a, of_b)                                                                              \
+    start "title = 'fields'; dimension = 2; spacing = 0.25; gravity = (0, -9.81); end = '20 ms';"                      \
+          "domain = { min = (-1, -1); max = (5, 5); };"                                                                \
+          "soil = ( { name = 'a'; shape = { type = 'box'; min = (0, 0); max = (4, 2); };" CLAY of_a " },"              \
+          "  { name = 'b'; shape = { type = 'box'; min = (0, 2); max = (4, 4); };" CLAY of_b " } );"                   \
+          "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"        \
+          "output = { snapshots = 1; pictures = false; };"
+#define CLAY                                                                                                           \
+    "material = { model = 'mohr_coulomb'; density = 2000; youngs_modulus = 2e7; poissons_ratio = 0.3;"                 \
+    "  friction_angle = 0.3; cohesion = 4e3; };"
+#define FIELD(parameter, formula) "{ parameter = '" parameter "'; formula = '" formula "'; }"
+
+/* Whether a soil brings its values is asked of this soil: what b varies for the first time is that of the stage though
+ * a varied it before, and though b had a field of another parameter. */
+static void what_another_soil_varied_is_not_kept(void **state)
+{
+    enum { N = 256 };
+    static double x[3 * N], cohesion[N], friction[N], soil[N];
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    run_cut(folder,
+            CASE_OF_FIELDS("", "fields = (" FIELD("cohesion", "1e3*(1 + x)") ");",
+                           "fields = (" FIELD("friction_angle", "0.2 + 0.01*x") ");"),
+            "two");
+    finished_run_store_text(
+        folder,
+        CASE_OF_FIELDS("start_from = 'two';", "fields = (" FIELD("cohesion", "9e3") ");",
+                       "fields = (" FIELD("friction_angle", "0.5") "," FIELD("cohesion", "3e3 + 10*x") ");"),
+        path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_expect(session, mor_session_build(session), MOR_OK, "");
+    assert_int_equal(mor_session_n_particles(session, "soil"), N);
+    assert_int_equal(mor_session_read_field(session, "soil", "position", x, 3 * N), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "cohesion", cohesion, N), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "friction_angle", friction, N), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "soil", soil, N), MOR_OK);
+    for (int i = 0; i < N; ++i) {
+        if (soil[i] == 0.0) { /* moved by less than 20 mm since; its friction angle is that of the material */
+            assert_near(cohesion[i], 1e3 * (1.0 + x[3 * i]), 20.0);
+            assert_true(friction[i] == 0.3);
+        } else {
+            assert_near(cohesion[i], 3e3 + 10.0 * x[3 * i], 1e-9); /* rounding */
+            assert_near(friction[i], 0.2 + 0.01 * x[3 * i], 2e-4);
+        }
+    }
+    mor_session_free(&session);
+    /* Of b, the friction angles that it brings are below a dilation angle that the stage gives it. */
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_override(session, "soil[1].material.dilation_angle=0.28"), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_expect(session, mor_session_build(session), MOR_ERROR_CONFIG,
+                   "soil 'b', whose fields are taken over from the run");
+    mor_session_free(&session);
+}
+
 static void runs_that_do_not_fit_are_refused(void **state)
 {
     static const char *const wrong[][2] = {
@@ -323,6 +380,7 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(new_soil_does_not_overlap_across_a_periodic_face, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(what_another_soil_varied_is_not_kept, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(runs_that_do_not_fit_are_refused, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

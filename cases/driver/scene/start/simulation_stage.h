@@ -58,9 +58,9 @@ mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int 
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when nothing is left; MOR_ERROR_MEMORY. */
 mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken, int soil, mor_lattice_points *points);
 
-/** Gives the particles that were taken over their fields. A parameter that varies comes with them where it varied in the
- *  same soil of the run, else it is what the case says. Soil that is not released loses its velocity, which is logged.
- *  Crossings of periodic faces begin anew.
+/** Gives the particles that were taken over their fields. A parameter that varies comes with them where it varied in
+ *  the same soil of the run, else it is what the case says. Soil that is not released loses its velocity, which is
+ *  logged. Crossings of periodic faces begin anew.
  *  @param simulation [in,out]  its soil, initialized, particles in the order of the regions
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when the run lacks a state variable of a law, or a law refuses what the
  *  particles bring; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
