@@ -29,6 +29,8 @@ static const idle_row rows[] = {
     {"end=20 ms", "!warning"},
     {"walls[2].removed_at=19 ms", "!warning"},
     {"walls[2].removed_at=20 ms", "wall 'gate' is removed at 0.02 s, but the run ends at 0.02 s: it stays"},
+    {"soil[0].released=19 ms", "!warning"},
+    {"soil[0].released=20 ms", "soil 'sand' is released at 0.02 s, but the run ends at 0.02 s: it stands all the time"},
     {"walls[2].path={table=({time=0;}, {time=0.019;}, {time=0.1; translation=(0.0, 0.1);});}", "!warning"},
     {"walls[2].path={table=({time=0;}, {time=0.02;}, {time=0.1; translation=(0.0, 0.1);});}",
      "wall 'gate' does not move on its path before the run ends at 0.02 s"},
@@ -135,9 +137,12 @@ static void stages_warn_of_what_does_nothing(void **state)
     assert_null(strstr(outcome.errors, "excavate[0] removes nothing"));
     program_expect_text(outcome.output, "the velocity of soil 'sand' has no effect");
     program_clear(&outcome);
-    outcome = program_run(
-        folder, (const char *[]){"explain", "case.cfg", "-t", "1", "-s", "walls[2].removed_at=10 ms", NULL}, 0);
+    outcome = program_run(folder,
+                          (const char *[]){"explain", "case.cfg", "-t", "1", "-s", "walls[2].removed_at=10 ms", "-s",
+                                           "soil[0].released=11 ms", NULL},
+                          0);
     program_expect_text(outcome.output, "removed                 wall 'gate' at 0.01 s");
+    program_expect_text(outcome.output, "released                soil 'sand' stands until 0.011 s");
     program_expect_text(outcome.output, "stage                   soil 'sand': 96 particles taken over from ");
     program_clear(&outcome);
 }

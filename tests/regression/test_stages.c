@@ -156,6 +156,186 @@ static void a_stage_fills_and_is_resumed_with_the_same_bits(void **state)
     assert_near(mass, 8000.0 + 3600.0, 1e-6);
 }
 
+/* Two columns that collapse, side by side: blocks of 256 particles hold one of them, or both. */
+#define CASE_OF_COLUMNS(start)                                                                                         \
+    start                                                                                                              \
+        "title = 'columns'; dimension = 2; spacing = '20 mm'; gravity = (0, -9.81); end = '0.1 s';"                    \
+        "domain = { min = (-1, -0.1); max = (2, 1); };"                                                                \
+        "soil = ( { name = 'a'; shape = { type = 'box'; min = (0, 0); max = (0.3, 0.6); }; " SAND " },"                \
+        "  { name = 'b'; shape = { type = 'box'; min = (0.3, 0); max = (0.6, 0.6); }; " SAND " } );"                   \
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"          \
+        "probes = ( { name = 'balance'; type = 'energy_balance'; } ); output = { snapshots = 1; pictures = false; };"
+#define SAND                                                                                                           \
+    "material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"           \
+    "  friction_angle = '20 deg'; };"
+
+enum { COLUMNS = 2 * 450 };
+
+static void read_columns(mor_session *session, double *position, double *velocity, double *soil)
+{
+    assert_int_equal(mor_session_n_particles(session, "soil"), COLUMNS);
+    assert_int_equal(mor_session_read_field(session, "soil", "position", position, 3 * COLUMNS), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "velocity", velocity, 3 * COLUMNS), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "soil", soil, COLUMNS), MOR_OK);
+}
+
+static void note_stop(void *user, mor_log_level level, const char *text)
+{
+    if (level == MOR_LOG_WARNING && strstr(text, "is stopped at once, which takes a kinetic energy of") != NULL) {
+        *(int *)user += 1;
+    }
+}
+
+/* It moved in the run before at about g t, 1 m/s, and stands to the last bit until it is released. */
+static void soil_taken_over_stands_until_it_is_released(void **state)
+{
+    static double place[2][3 * COLUMNS], velocity[3 * COLUMNS], soil[COLUMNS];
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    int n_warnings = 0;
+    double moved = 0.0;
+    run_cut(folder, CASE_OF_COLUMNS(""), "falling");
+    finished_run_store_text(folder, CASE_OF_COLUMNS("start_from = 'falling';"), path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    mor_session_set_log(session, note_stop, &n_warnings);
+    assert_int_equal(mor_session_override(session, "soil[0].released=1"), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_make_ready(session);
+    assert_int_equal(n_warnings, 1);
+    read_columns(session, place[0], velocity, soil);
+    for (int k = 0; k < 100; ++k) {
+        assert_int_equal(mor_session_step(session), MOR_OK);
+    }
+    read_columns(session, place[1], velocity, soil);
+    for (int i = 0; i < COLUMNS; ++i) {
+        const double *x = place[1] + 3 * i;
+        const double way = hypot(x[0] - place[0][3 * i], x[1] - place[0][3 * i + 1]);
+        const double speed = hypot(velocity[3 * i], velocity[3 * i + 1]);
+        assert_true(soil[i] == 1.0 || (way == 0.0 && speed == 0.0));
+        moved = fmax(moved, way);
+    }
+    assert_true(moved > 0.02); /* the other one goes on: a spacing */
+    mor_session_free(&session);
+}
+
+#define CASE_OF_ROUND(start, from, to)                                                                                 \
+    start "title = 'round'; dimension = 2; spacing = '10 mm'; gravity = (0, 0); end = '0.1 s';"                        \
+          "domain = { min = (" from ", -0.1); max = (" to ", 0.2); periodic = 'x'; };"                                 \
+          "soil = ( { name = 'block'; velocity = (3, 0); shape = { type = 'box'; min = (0, 0); max = (0.2, 0.1); };"   \
+          "  material = { model = 'drucker_prager'; density = 1600; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"   \
+          "    friction_angle = '20 deg'; cohesion = '10 kPa'; }; } );"                                                \
+          "probes = ( { name = 'x'; type = 'center_of_mass'; direction = (1, 0); } );"                                 \
+          "output = { snapshots = 1; pictures = false; };"
+
+/* 3 m/s for 0.1 s in a domain of 0.2 m: all of it has gone round once, half of it twice. A stage with a longer domain
+ * begins where the soil is in it, and goes on by 0.3 m. */
+static void periodic_faces_are_crossed_anew_in_a_stage(void **state)
+{
+    run_folder *folder = *state;
+    run_cut(folder, CASE_OF_ROUND("", "0", "0.2"), "round");
+    run_cut(folder, CASE_OF_ROUND("start_from = 'round';", "-0.3", "0.3"), "longer");
+    assert_near(finished_run_read_value(folder, "round", "x", -1), 0.4, 1e-9); /* rounding of some hundred steps */
+    const double first = finished_run_read_value(folder, "longer", "x", 0);
+    assert_near(first, 0.1, 1e-9); /* a full domain */
+    assert_near(finished_run_read_value(folder, "longer", "x", -1) - first, 0.3, 1e-9);
+}
+
+/* A block that has gone on by 0.3 spacings loses its front half, and new soil fills the gap: across the periodic face,
+ * too, it is left out where it would be nearer than 0.75 spacings to what is there. */
+static void new_soil_does_not_overlap_across_a_periodic_face(void **state)
+{
+    enum { ROOM = 400 };
+    static const char fill[] =
+        "start_from = 'shifted'; excavate = ( { type = 'box'; min = (0.1, -1); max = (0.3, 1); } );"
+        "title = 'fill'; dimension = 2; spacing = '10 mm'; gravity = (0, 0); end = '1 ms';"
+        "domain = { min = (0, -0.1); max = (0.2, 0.2); periodic = 'x'; };"
+        "soil = ( { name = 'block'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.1); };" SAND " },"
+        "  { name = 'new'; shape = { type = 'box'; min = (0.1, 0); max = (0.2, 0.1); };" SAND " } );";
+    static double x[3 * ROOM];
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    double nearest = INFINITY;
+    finished_run_store_text(folder, CASE_OF_ROUND("", "0", "0.2"), path);
+    const char *const slow[] = {"soil[0].velocity=(-0.06, 0)", "end=0.05"};
+    const session_run it = {
+        .case_path = path, .name = "shifted", .settings = slow, .n_settings = 2, .stop_at = NAN, .n_threads = 1};
+    session_run_do(folder, &it, "shifted");
+    finished_run_store_text(folder, fill, path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_expect(session, mor_session_build(session), MOR_OK, "");
+    const int n = (int)mor_session_n_particles(session, "soil");
+    assert_in_range(n, 150, ROOM);
+    assert_int_equal(mor_session_read_field(session, "soil", "position", x, 3 * n), MOR_OK);
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < i; ++j) {
+            const double offset = x[3 * i] - x[3 * j];
+            nearest = fmin(nearest, hypot(offset - 0.2 * rint(offset / 0.2), x[3 * i + 1] - x[3 * j + 1]));
+        }
+    }
+    assert_true(nearest >= 0.75 * 0.01 - 1e-12); /* rounding */
+    mor_session_free(&session);
+}
+
+#define CASE_OF_FIELDS(start, of_a, of_b)                                                                              \
+    start "title = 'fields'; dimension = 2; spacing = 0.25; gravity = (0, -9.81); end = '20 ms';"                      \
+          "domain = { min = (-1, -1); max = (5, 5); };"                                                                \
+          "soil = ( { name = 'a'; shape = { type = 'box'; min = (0, 0); max = (4, 2); };" CLAY of_a " },"              \
+          "  { name = 'b'; shape = { type = 'box'; min = (0, 2); max = (4, 4); };" CLAY of_b " } );"                   \
+          "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"        \
+          "output = { snapshots = 1; pictures = false; };"
+#define CLAY                                                                                                           \
+    "material = { model = 'mohr_coulomb'; density = 2000; youngs_modulus = 2e7; poissons_ratio = 0.3;"                 \
+    "  friction_angle = 0.3; cohesion = 4e3; };"
+#define FIELD(parameter, formula) "{ parameter = '" parameter "'; formula = '" formula "'; }"
+
+/* Whether a soil brings its values is asked of this soil: what b varies for the first time is that of the stage though
+ * a varied it before, and though b had a field of another parameter. */
+static void what_another_soil_varied_is_not_kept(void **state)
+{
+    enum { N = 256 };
+    static double x[3 * N], cohesion[N], friction[N], soil[N];
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    mor_session *session = NULL;
+    run_cut(folder,
+            CASE_OF_FIELDS("", "fields = (" FIELD("cohesion", "1e3*(1 + x)") ");",
+                           "fields = (" FIELD("friction_angle", "0.2 + 0.01*x") ");"),
+            "two");
+    finished_run_store_text(
+        folder,
+        CASE_OF_FIELDS("start_from = 'two';", "fields = (" FIELD("cohesion", "9e3") ");",
+                       "fields = (" FIELD("friction_angle", "0.5") "," FIELD("cohesion", "3e3 + 10*x") ");"),
+        path);
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_expect(session, mor_session_build(session), MOR_OK, "");
+    assert_int_equal(mor_session_n_particles(session, "soil"), N);
+    assert_int_equal(mor_session_read_field(session, "soil", "position", x, 3 * N), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "cohesion", cohesion, N), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "friction_angle", friction, N), MOR_OK);
+    assert_int_equal(mor_session_read_field(session, "soil", "soil", soil, N), MOR_OK);
+    for (int i = 0; i < N; ++i) {
+        if (soil[i] == 0.0) { /* moved by less than 20 mm since; its friction angle is that of the material */
+            assert_near(cohesion[i], 1e3 * (1.0 + x[3 * i]), 20.0);
+            assert_true(friction[i] == 0.3);
+        } else {
+            assert_near(cohesion[i], 3e3 + 10.0 * x[3 * i], 1e-9); /* rounding */
+            assert_near(friction[i], 0.2 + 0.01 * x[3 * i], 2e-4);
+        }
+    }
+    mor_session_free(&session);
+    /* Of b, the friction angles that it brings are below a dilation angle that the stage gives it. */
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    assert_int_equal(mor_session_override(session, "soil[1].material.dilation_angle=0.28"), MOR_OK);
+    assert_int_equal(mor_session_load_file(session, path), MOR_OK);
+    session_expect(session, mor_session_build(session), MOR_ERROR_CONFIG,
+                   "soil 'b', whose fields are taken over from the run");
+    mor_session_free(&session);
+}
+
 static void runs_that_do_not_fit_are_refused(void **state)
 {
     static const char *const wrong[][2] = {
@@ -194,6 +374,13 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_cut_in_stages_is_the_cut_in_one_go, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stage_fills_and_is_resumed_with_the_same_bits, run_folder_setup,
                                         run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soil_taken_over_stands_until_it_is_released, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(periodic_faces_are_crossed_anew_in_a_stage, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(new_soil_does_not_overlap_across_a_periodic_face, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(what_another_soil_varied_is_not_kept, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(runs_that_do_not_fit_are_refused, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -39,6 +39,7 @@ typedef struct mor_case_field {
     int other;                                       /* its place in the list; -1: none */
     double cross_correlation;                        /* of both normal variables, 1 */
     uint64_t seed;
+    bool is_taken; /* particles bring their values from the run that the case starts from, where it varied, too */
     uint64_t written;
 } mor_case_field;
 

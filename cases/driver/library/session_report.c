@@ -7,6 +7,7 @@
 #include "cases/driver/case/schema/contact_report.h"
 #include "cases/driver/picture/rocks_report.h"
 #include "cases/driver/run/wall_time.h"
+#include "cases/driver/scene/check/event_report.h"
 #include "cases/driver/scene/check/field_report.h"
 #include "cases/driver/scene/check/resolution_advice.h"
 #include "cases/driver/scene/check/simulation_warnings.h"
@@ -115,38 +116,6 @@ static void print_plugins(FILE *out, const mor_case *the_case)
     }
 }
 
-/* When what is removed goes, and what moves does. */
-static void print_event(FILE *out, const char *what, const char *name, double removed_at, const mor_case_path *path)
-{
-    if (!isnan(removed_at)) {
-        fprintf(out, "  removed                 %s '%s' at %g s\n", what, name, removed_at);
-    }
-    if (path->n_rows > 0) {
-        const mor_motion_row *last = &path->rows[path->n_rows - 1];
-        fprintf(out,
-                "  path                    %s '%s' from %g s to %g s: translation then (%g, %g, %g) m, angle %g deg\n",
-                what, name, path->rows[0].time, last->time, last->translation[0], last->translation[1],
-                last->translation[2], last->angle * 57.295779513082320877);
-    }
-}
-
-/* What happens on the way, and what a stage begins with. */
-static void print_events(FILE *out, const mor_simulation *s)
-{
-    const mor_case *c = s->the_case;
-    for (int w = 0; w < c->n_walls; ++w) {
-        print_event(out, "wall", c->walls[w].name, c->walls[w].removed_at, &c->walls[w].path);
-    }
-    for (int b = 0; b < c->n_listed_bodies; ++b) {
-        print_event(out, "body", c->bodies[b].name, c->bodies[b].removed_at, &c->bodies[b].path);
-    }
-    for (int k = 0; k < c->n_soils && c->stage.run[0] != '\0'; ++k) {
-        const bool is_taken = mor_case_takes_over(c, k);
-        fprintf(out, "  stage                   soil '%s': %lld particles %s%s\n", c->soils[k].name,
-                (long long)s->region_particles[k], is_taken ? "taken over from " : "new", is_taken ? c->stage.run : "");
-    }
-}
-
 static void print_sizes(FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
@@ -190,7 +159,7 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     mor_contact_report_print(c, out);
     mor_rocks_report_print(c, out);
     mor_session_print_soils(out, s);
-    print_events(out, s);
+    mor_event_report_print(out, s);
     mor_field_report_print(out, s);
 }
 

@@ -51,6 +51,16 @@ bool mor_simulation_varies(const mor_case *the_case, int soil, const char *key)
     return is;
 }
 
+bool mor_simulation_brings(const mor_case *the_case, int soil, const char *key)
+{
+    const mor_case_soil *it = &the_case->soils[soil];
+    bool is = false;
+    for (int k = 0; k < it->n_fields; ++k) {
+        is = is || (it->fields[k].is_taken && strcmp(it->fields[k].parameter, key) == 0);
+    }
+    return is;
+}
+
 static bool varies_anywhere(const mor_case *the_case, const char *key)
 {
     bool is = false;

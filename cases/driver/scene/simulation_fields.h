@@ -27,6 +27,12 @@ bool mor_simulation_has_same_fields(const mor_case *the_case, int a, int b);
  *  @param key  [in]  zero-terminated; of the parameter */
 bool mor_simulation_varies(const mor_case *the_case, int soil, const char *key);
 
+/** Whether the particles of a region bring the values of a parameter from the run that the case starts from: it varies
+ *  in the region of both.
+ *  @param soil [in]  index of the region
+ *  @param key  [in]  zero-terminated; of the parameter */
+bool mor_simulation_brings(const mor_case *the_case, int soil, const char *key);
+
 /** The field of the particles of soil that holds a parameter which varies.
  *  @param key [in]  zero-terminated; of the parameter
  *  Returns: its index in the set; -1: the parameter varies in no region. */

@@ -70,6 +70,17 @@ void mor_hold_find(mor_hold *hold, const double *region, int64_t n_particles, do
     }
 }
 
+mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const double *velocity, int64_t n_particles)
+{
+    for (int64_t i = 0; i < n_particles && hold->n_held > 0; ++i) {
+        const double *v = velocity + 3 * i;
+        MOR_CHECK(context, !hold->is_held[i] || (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0), MOR_ERROR_INTERNAL,
+                  "particle %lld of soil that is not released has a velocity of (%.4g, %.4g, %.4g) m/s", (long long)i,
+                  v[0], v[1], v[2]);
+    }
+    return MOR_OK;
+}
+
 mor_status mor_hold_keep(mor_context *context, mor_hold *hold, const mor_hold_array *arrays, int n_arrays)
 {
     int64_t width = 0;

@@ -49,6 +49,12 @@ void mor_hold_clear(mor_context *context, mor_hold *hold);
  *  @param time        [in]  unit s; infinite: none is held */
 void mor_hold_find(mor_hold *hold, const double *region, int64_t n_particles, double time);
 
+/** Checks that no particle that is held has a velocity, which would carry it along.
+ *  @param velocity    [in]  shape [n_particles, 3], unit m/s
+ *  @param n_particles [in]  number of particles
+ *  Returns: MOR_OK; MOR_ERROR_INTERNAL. */
+mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const double *velocity, int64_t n_particles);
+
 /** Keeps values of held particles in blocks with other soil.
  *  @param arrays   [in]  shape [n_arrays]
  *  @param n_arrays [in]  number of arrays

@@ -61,11 +61,23 @@ static const char *text_of(const mor_case_node *node)
     return node != NULL && node->kind == MOR_CASE_NODE_TEXT ? node->text : "";
 }
 
-/* Finds the region of the run that has the name of a soil, and compares their laws. */
-static mor_status find_region(const mor_case_reader *reader, const mor_case_node *node, const mor_case *the_case,
-                              int soil, const mor_case_node *soils, int *region)
+/* Marks the fields of a soil whose parameters varied in the same soil of the run. */
+static void mark_fields(mor_case_soil *soil, const mor_case_node *before)
 {
-    const mor_case_soil *it = &the_case->soils[soil];
+    const mor_case_node *fields = mor_case_node_find(before, "fields");
+    for (const mor_case_node *node = fields == NULL ? NULL : fields->first_child; node != NULL; node = node->next) {
+        for (int k = 0; k < soil->n_fields; ++k) {
+            const bool is_it = strcmp(text_of(mor_case_node_find(node, "parameter")), soil->fields[k].parameter) == 0;
+            soil->fields[k].is_taken = soil->fields[k].is_taken || is_it;
+        }
+    }
+}
+
+/* Finds the region of the run that has the name of a soil, and compares their laws. */
+static mor_status find_region(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case, int soil,
+                              const mor_case_node *soils, int *region)
+{
+    mor_case_soil *it = &the_case->soils[soil];
     int index = 0;
     *region = -1;
     for (const mor_case_node *other = soils == NULL ? NULL : soils->first_child; other != NULL;
@@ -82,6 +94,7 @@ static mor_status find_region(const mor_case_reader *reader, const mor_case_node
                                       "makes it new",
                                       it->model, it->name, it->place.line, model, the_case->stage.run);
         }
+        mark_fields(it, other);
         *region = index;
     }
     return MOR_OK;

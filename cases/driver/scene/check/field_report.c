@@ -18,15 +18,15 @@ static double find_unit(const char *si, const char **name)
     return is_angle ? MOR_PI / 180.0 : 1.0;
 }
 
-static void print_field(FILE *out, const mor_case_soil *soil, int k, const mor_simulation_field *found, bool is_taken)
+static void print_field(FILE *out, const mor_case_soil *soil, int k, const mor_simulation_field *found)
 {
     const mor_case_field *field = &soil->fields[k];
     const char *name = NULL;
     const double unit = find_unit(soil->law->parameters[field->entry].unit, &name);
     char title[2 * MOR_CASE_NAME_BYTES];
     snprintf(title, sizeof title, "%s.%s", soil->name, field->parameter);
-    if (is_taken) {
-        fprintf(out, "    %-*s taken over from the run before, if it has it\n", NAME_WIDTH + 5, title);
+    if (field->is_taken) {
+        fprintf(out, "    %-*s taken over from the run before, with its particles\n", NAME_WIDTH + 5, title);
         return;
     }
     fprintf(out, "    %-*s %-*s %12.5g %12.5g %12.5g %12.5g %10lld\n", NAME_WIDTH + 5, title, UNIT_WIDTH, name,
@@ -45,7 +45,7 @@ void mor_field_report_print(FILE *out, const mor_simulation *s)
                         UNIT_WIDTH, "unit", "mean", "deviation", "least", "largest", "clipped");
                 has_title = true;
             }
-            print_field(out, &c->soils[soil], k, &s->fields[soil][k], mor_case_takes_over(c, soil));
+            print_field(out, &c->soils[soil], k, &s->fields[soil][k]);
         }
     }
 }

@@ -54,6 +54,15 @@ static void warn_of_late_events(mor_context *context, const mor_case *c)
         warn_of_removal(context, c, &it->place, "body", it->name, it->removed_at);
         warn_of_path(context, c, &it->place, "body", it->name, &it->path);
     }
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        if (it->released >= c->end) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "%s:%d: soil '%s' is released at %g s, but the run ends at %g s: it stands all the time, "
+                            "whatever its strength; correct released, or extend end",
+                            it->place.file, it->place.line, it->name, it->released, c->end);
+        }
+    }
     if (c->numerics.sleep_after >= c->end) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "numerics.sleep_after = %g s is no shorter than the run, %g s: no soil will sleep; shorten it, "

@@ -206,6 +206,16 @@ static mor_material_instance *find_material(const mor_simulation *simulation, in
     return simulation->parts[soil] != NULL ? simulation->parts[soil] : simulation->material;
 }
 
+/* Whether particles bring values, which are not known yet. */
+static bool has_taken(const mor_case_soil *soil)
+{
+    bool has = false;
+    for (int k = 0; k < soil->n_fields; ++k) {
+        has = has || soil->fields[k].is_taken;
+    }
+    return has;
+}
+
 static mor_status set_particles(mor_context *context, mor_simulation *simulation, int soil, region_fields *it)
 {
     const mor_case_reduction *reduction = &it->the_case->reduction;
@@ -228,7 +238,7 @@ static mor_status set_particles(mor_context *context, mor_simulation *simulation
             simulation->soil.set.data[mor_simulation_find_field(simulation, schema[entries[k]].key)][it->first + i] =
                 given[offset];
         }
-        if (mor_varied_check(context, find_material(simulation, soil), used) != MOR_OK) {
+        if (!has_taken(it->soil) && mor_varied_check(context, find_material(simulation, soil), used) != MOR_OK) {
             char why[MOR_CONTEXT_MESSAGE_BYTES];
             snprintf(why, sizeof why, "%.1300s; change the formula or the mean, or give the field a minimum or maximum",
                      context->message);
@@ -247,14 +257,17 @@ static mor_status set_region(mor_context *context, mor_simulation *simulation, i
         find_normals(context, &it, simulation->soil.set.data[MOR_FIELD_POSITION]);
         status = set_particles(context, simulation, soil, &it);
     }
-    if (!mor_case_takes_over(simulation->the_case, soil)) { /* else the particles bring their values */
-        memcpy(simulation->fields[soil], it.reports, sizeof it.reports);
+    for (int k = 0; k < it.soil->n_fields; ++k) {
+        if (!it.soil->fields[k].is_taken) { /* else the particles bring their values */
+            simulation->fields[soil][k] = it.reports[k];
+        }
     }
     clear_region(context, &it);
     return status;
 }
 
-/* Another region's field is the parameter of this one's material, where its law has one of that name and unit. */
+/* A field of another region is the parameter of this one's material, where its law has one of that name and unit; this
+ * one's own come after it. */
 static void set_constants(mor_simulation *simulation, int soil, int64_t first, int64_t n)
 {
     const mor_case_soil *it = &simulation->the_case->soils[soil];
@@ -262,7 +275,10 @@ static void set_constants(mor_simulation *simulation, int soil, int64_t first, i
     const mor_schema *state = simulation->soil.material->material->state;
     for (int k = 0; k < simulation->soil.material->n_state; ++k) {
         const int entry = mor_params_find(own, state[k].key);
-        if (entry >= 0 && own[entry].kind == MOR_SCHEMA_REAL && strcmp(own[entry].unit, state[k].unit) == 0) {
+        const bool is_parameter = mor_simulation_is_parameter(simulation, simulation->soil.state_fields[k]) &&
+                                  mor_params_find(it->law->state, state[k].key) < 0;
+        if (is_parameter && entry >= 0 && own[entry].kind == MOR_SCHEMA_REAL &&
+            strcmp(own[entry].unit, state[k].unit) == 0) {
             for (int64_t i = first; i < first + n; ++i) {
                 simulation->soil.set.data[simulation->soil.state_fields[k]][i] =
                     it->parameters[mor_params_offset(own, entry)];
@@ -281,13 +297,49 @@ mor_status mor_simulation_set_fields(mor_context *context, mor_simulation *simul
         has_fields = has_fields || c->soils[k].n_fields > 0;
     }
     for (int k = 0; k < c->n_soils && has_fields; ++k) {
+        set_constants(simulation, k, first, regions[k].n_points);
         if (c->soils[k].n_fields > 0) {
             MOR_TRY(context, set_region(context, simulation, k, first, regions[k].n_points));
             mor_varied_set_assigned(find_material(simulation, k), 1);
-        } else {
-            set_constants(simulation, k, first, regions[k].n_points);
         }
         first += regions[k].n_points;
+    }
+    return MOR_OK;
+}
+
+static mor_status check_particle(mor_context *context, const mor_simulation *simulation, int soil, int64_t particle)
+{
+    const mor_case *c = simulation->the_case;
+    const mor_case_soil *it = &c->soils[soil];
+    double used[MOR_CASE_PARAMETERS_MAX];
+    memcpy(used, it->parameters, sizeof used);
+    for (int k = 0; k < it->n_fields; ++k) {
+        const int field = mor_simulation_find_field(simulation, it->fields[k].parameter);
+        used[mor_params_offset(it->law->parameters, it->fields[k].entry)] = simulation->soil.set.data[field][particle];
+    }
+    if (mor_varied_check(context, find_material(simulation, soil), used) == MOR_OK) {
+        return MOR_OK;
+    }
+    char why[MOR_CONTEXT_MESSAGE_BYTES];
+    double place[3];
+    snprintf(why, sizeof why, "%.1300s", context->message);
+    mor_simulation_take_point_back(c, simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * particle, place);
+    return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                    "%s:%d: soil '%s', whose fields are taken over from the run '%s', at (%.6g, %.6g, %.6g) m: %s; "
+                    "change the parameters of its material, or the fields that are new",
+                    it->place.file, it->place.line, it->name, c->stage.run, place[0], place[1], place[2], why);
+}
+
+mor_status mor_simulation_check_fields(mor_context *context, const mor_simulation *simulation)
+{
+    const mor_case *c = simulation->the_case;
+    int64_t first = 0;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const int64_t end = first + simulation->region_particles[k];
+        for (int64_t i = first; i < end && has_taken(&c->soils[k]); ++i) {
+            MOR_TRY(context, check_particle(context, simulation, k, i));
+        }
+        first = end;
     }
     return MOR_OK;
 }

@@ -26,4 +26,10 @@ mor_status mor_simulation_vary_material(mor_context *context, const mor_case *th
 mor_status mor_simulation_set_fields(mor_context *context, mor_simulation *simulation,
                                      const mor_lattice_points *regions);
 
+/** Checks the parameters of particles that brought some of them from the run that the case starts from, once they have
+ *  them.
+ *  @param simulation [in]  particles in the order of the regions
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG for parameters that the law refuses, naming the place. */
+mor_status mor_simulation_check_fields(mor_context *context, const mor_simulation *simulation);
+
 #endif

@@ -2,17 +2,13 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/start/simulation_stage.h"
 
-#include "cases/driver/scene/simulation_fields.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/material/composite.h"
-#include "core/material/params.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#define SOIL_SET "soil"
 
 /* Soil may have been pressed this deep into a wall, in spacings. */
 #define PRESSED 0.5
@@ -25,10 +21,10 @@ static mor_status read_soil(mor_context *context, mor_taken_soil *taken)
     bool is_there = false;
     MOR_TRY(context, MOR_NEW(context, &taken->positions, 3 * taken->n, "soil of the run before"));
     MOR_TRY(context, MOR_NEW(context, &taken->sources, taken->n, "soil of the run before"));
-    MOR_TRY(context,
-            mor_checkpoint_view_field(context, taken->view, SOIL_SET, "position", 3, taken->positions, &is_there));
+    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, MOR_TAKEN_SOIL_SET, "position", 3,
+                                               taken->positions, &is_there));
     MOR_TRY(context, MOR_NEW(context, &taken->regions, taken->n, "regions of the run before"));
-    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, MOR_COMPOSITE_INDEX_KEY, 1,
+    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, MOR_TAKEN_SOIL_SET, MOR_COMPOSITE_INDEX_KEY, 1,
                                                taken->regions, &is_there));
     if (!is_there) {
         MOR_FREE(context, &taken->regions);
@@ -61,7 +57,7 @@ mor_status mor_taken_soil_open(mor_context *context, const mor_case *the_case, c
     }
     taken->the_case = the_case;
     MOR_TRY(context, mor_checkpoint_view_open(context, stage->run, &taken->view));
-    MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, SOIL_SET, &taken->n));
+    MOR_TRY(context, mor_checkpoint_view_count(context, taken->view, MOR_TAKEN_SOIL_SET, &taken->n));
     MOR_TRY(context, list_new_bodies(context, bodies, taken));
     MOR_CHECK(context, taken->n > 0, MOR_ERROR_CONFIG,
               "%s:%d: found a run without soil, '%s', to start from; allowed: one with soil; correct start_from",
@@ -265,6 +261,24 @@ static bool is_near(const mor_taken_soil *taken, const cell_entry *entries, cons
     return false;
 }
 
+/* Likewise of the place or of one of its images beyond periodic faces, where nothing is placed or turned. */
+static bool is_image_near(const mor_taken_soil *taken, const cell_entry *entries, const double *place, double distance)
+{
+    const mor_case *c = taken->the_case;
+    bool is = false;
+    for (int k = 0; k < 27 && !is; ++k) {
+        const int steps[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        double image[3];
+        bool is_image = true;
+        for (int a = 0; a < 3; ++a) {
+            is_image = is_image && (steps[a] == 0 || mor_case_is_periodic(c, a));
+            image[a] = steps[a] == 0 ? place[a] : place[a] + steps[a] * (c->domain_maximum[a] - c->domain_minimum[a]);
+        }
+        is = is_image && is_near(taken, entries, image, distance);
+    }
+    return is;
+}
+
 mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken, int soil, mor_lattice_points *points)
 {
     const mor_case *c = taken->the_case;
@@ -281,7 +295,7 @@ mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken
     }
     qsort(entries, (size_t)taken->n_taken, sizeof *entries, compare_cells);
     for (int64_t i = 0; i < points->n_points; ++i) {
-        if (!is_near(taken, entries, points->positions + 3 * i, distance)) {
+        if (!is_image_near(taken, entries, points->positions + 3 * i, distance)) {
             memmove(points->positions + 3 * n_kept++, points->positions + 3 * i, 3 * sizeof *points->positions);
         }
     }
@@ -292,127 +306,6 @@ mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken
               c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, c->stage.run);
     points->n_points = n_kept;
     return MOR_OK;
-}
-
-/* ---- Fields ------------------------------------------------------------------------------------------------------ */
-
-static bool is_state_of_law(const mor_soil *soil, int field)
-{
-    bool is = false;
-    for (int k = 0; k < soil->material->n_state; ++k) {
-        is = is || (soil->state_fields[k] == field && field != soil->region_field);
-    }
-    return is;
-}
-
-static mor_status apply_field(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation, int field,
-                              double *values)
-{
-    mor_soil *soil = &simulation->soil;
-    const mor_case *c = taken->the_case;
-    const mor_field_info *info = &soil->set.fields[field];
-    const int width = info->n_components;
-    int64_t to = 0;
-    bool is_there = false;
-    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, info->name, width, values, &is_there));
-    /* A parameter that varies in this case alone has the value of the place where its particle is now. */
-    const bool is_needed = is_state_of_law(soil, field) && !mor_simulation_is_parameter(simulation, field);
-    MOR_CHECK(context, is_there || !is_needed, MOR_ERROR_CONFIG,
-              "%s:%d: found no state variable '%s' of the soil in the run '%s', which a law of this case needs; "
-              "allowed: the laws of the run; give soils that are new other names",
-              c->stage.place.file, c->stage.place.line, info->name, c->stage.run);
-    for (int k = 0; k < c->n_soils && is_there; ++k) {
-        const int64_t n = mor_taken_soil_has(taken, k) ? taken->count[k] : 0;
-        /* What varies in another soil only shows the constant of this one. */
-        const bool is_kept = !mor_simulation_is_parameter(simulation, field) || mor_simulation_varies(c, k, info->name);
-        for (int64_t i = 0; i < n && is_kept; ++i) {
-            memcpy(soil->set.data[field] + width * (to + i), values + width * taken->sources[taken->first[k] + i],
-                   (size_t)width * sizeof *values);
-        }
-        to += simulation->region_particles[k];
-    }
-    return MOR_OK;
-}
-
-/* An excavation that holds no soil of the run is misplaced, or was done before. */
-static void warn_of_empty_excavations(mor_context *context, const mor_taken_soil *taken)
-{
-    const mor_case *c = taken->the_case;
-    for (int k = 0; k < c->stage.n_excavations; ++k) {
-        bool is_empty = true;
-        for (int64_t i = 0; i < taken->n && is_empty; ++i) {
-            double place[3];
-            mor_simulation_take_point_back(c, taken->positions + 3 * i, place);
-            is_empty = !(mor_shape_distance(c->stage.excavations[k], place) < 0.0);
-        }
-        if (is_empty) {
-            mor_context_log(context, MOR_LOG_WARNING,
-                            "%s:%d: excavate[%d] removes nothing: no soil of the run '%s' is in it; correct its place, "
-                            "or remove it",
-                            c->stage.place.file, c->stage.place.line, k, c->stage.run);
-        }
-    }
-}
-
-/* Says where a parameter of a soil varied in the run before, but does not any more. */
-static mor_status warn_of_lost_field(mor_context *context, const mor_taken_soil *taken, int soil, int entry,
-                                     double *values)
-{
-    const mor_case *c = taken->the_case;
-    const mor_case_soil *it = &c->soils[soil];
-    const mor_schema *parameter = &it->law->parameters[entry];
-    const int64_t *sources = taken->sources + taken->first[soil];
-    bool is_there = false;
-    bool is_varied = false;
-    if (parameter->kind != MOR_SCHEMA_REAL || mor_simulation_varies(c, soil, parameter->key) ||
-        mor_params_find(it->law->state, parameter->key) >= 0) {
-        return MOR_OK;
-    }
-    MOR_TRY(context, mor_checkpoint_view_field(context, taken->view, SOIL_SET, parameter->key, 1, values, &is_there));
-    for (int64_t i = 1; i < taken->count[soil] && is_there; ++i) {
-        is_varied = is_varied || values[sources[i]] != values[sources[0]];
-    }
-    if (is_varied) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "soil '%s': '%s' varied in the run that this case starts from, but is the same everywhere from "
-                        "here on, because the soil has no field of it; list it in 'fields' to keep its values",
-                        it->name, parameter->key);
-    }
-    return MOR_OK;
-}
-
-static mor_status warn_of_lost_fields(mor_context *context, const mor_taken_soil *taken, double *values)
-{
-    const mor_case *c = taken->the_case;
-    for (int soil = 0; soil < c->n_soils; ++soil) {
-        for (int k = 0; mor_taken_soil_has(taken, soil) && c->soils[soil].law->parameters[k].key != NULL; ++k) {
-            MOR_TRY(context, warn_of_lost_field(context, taken, soil, k, values));
-        }
-    }
-    return MOR_OK;
-}
-
-mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation)
-{
-    enum { WIDTH_MAX = 9 };
-    mor_soil *soil = &simulation->soil;
-    double *values = NULL;
-    warn_of_empty_excavations(context, taken);
-    mor_status status = MOR_NEW(context, &values, WIDTH_MAX * taken->n, "a field of the run before");
-    for (int field = 0; field < soil->set.n_fields && status == MOR_OK; ++field) {
-        const bool is_placed = field == MOR_FIELD_POSITION || field == soil->region_field;
-        /* What the stage changes does not move, so that no soil may sleep on from the run before. */
-        if (mor_state_has_field(&soil->set, field) && !is_placed && field != MOR_FIELD_QUIET) {
-            status = apply_field(context, taken, simulation, field, values);
-        }
-    }
-    status = status == MOR_OK ? warn_of_lost_fields(context, taken, values) : status;
-    MOR_FREE(context, &values);
-    for (int64_t i = 0; i < soil->set.n_particles && status == MOR_OK; ++i) {
-        const double speed = mor_vector_length(soil->set.data[MOR_FIELD_VELOCITY] + 3 * i);
-        soil->largest_speed = fmax(soil->largest_speed, speed);
-    }
-    return status;
 }
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */

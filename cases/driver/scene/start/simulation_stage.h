@@ -11,6 +11,9 @@
  *  What a simulation takes over from the run that it starts from: particles of soil with stress and state, and the
  *  state of bodies. Time, impulses and sums of energy begin anew. */
 
+/* The particles of soil in a checkpoint. */
+#define MOR_TAKEN_SOIL_SET "soil"
+
 /** The soil of the run before. Zeroed: there is none. Owner: whoever builds, who ends it with mor_taken_soil_close. */
 typedef struct mor_taken_soil {
     const mor_case *the_case; /* borrowed; NULL: the case starts from no run */
@@ -55,9 +58,12 @@ mor_status mor_taken_soil_fill(mor_context *context, mor_taken_soil *taken, int 
  *  Returns: MOR_OK; MOR_ERROR_CONFIG when nothing is left; MOR_ERROR_MEMORY. */
 mor_status mor_taken_soil_thin(mor_context *context, const mor_taken_soil *taken, int soil, mor_lattice_points *points);
 
-/** Gives the particles that were taken over their fields.
+/** Gives the particles that were taken over their fields. A parameter that varies comes with them where it varied in
+ *  the same soil of the run, else it is what the case says. Soil that is not released loses its velocity, which is
+ *  logged. Crossings of periodic faces begin anew.
  *  @param simulation [in,out]  its soil, initialized, particles in the order of the regions
- *  Returns: MOR_OK; MOR_ERROR_CONFIG when the run lacks a state variable of a law; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG when the run lacks a state variable of a law, or a law refuses what the
+ *  particles bring; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation);
 
 /** Gives bodies and their contact the state of the run that the case starts from; those of a kind that the run did not
