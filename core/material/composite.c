@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/material/params.h"
+#include "core/material/piece.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -22,9 +23,6 @@ typedef struct composite {
     int n_parts;
     int variables[MOR_COMPOSITE_PARTS_MAX][MOR_MATERIAL_STATES_MAX]; /* of a part -> own */
 } composite;
-
-/* An operation on a batch whose result beside the batch's own arrays is one number per particle, or none. */
-typedef mor_status (*operation)(const mor_material_instance *part, const mor_batch *batch, double *numbers);
 
 /* The particles of one part in a chunk, gathered. */
 typedef struct gathered {
@@ -52,43 +50,8 @@ static void scatter(double *to, const double *from, int width, const int32_t *in
     }
 }
 
-/* An array of a batch from a first particle on; NULL stays. */
-static const double *from_first(const double *array, int64_t first, int width)
-{
-    return array != NULL ? array + first * width : NULL;
-}
-
-static double *to_first(double *array, int64_t first, int width)
-{
-    return array != NULL ? array + first * width : NULL;
-}
-
-/* Part of a batch: n particles from the first on, with all variables of the composite. */
-typedef struct piece {
-    mor_batch batch;
-    const double *state_in[MOR_MATERIAL_STATES_MAX];
-    double *state_out[MOR_MATERIAL_STATES_MAX];
-} piece;
-
-static void cut_piece(const composite *it, const mor_batch *batch, int64_t first, int64_t n, piece *cut)
-{
-    cut->batch = *batch;
-    cut->batch.n = n;
-    cut->batch.density = from_first(batch->density, first, 1);
-    cut->batch.velocity_gradient = from_first(batch->velocity_gradient, first, 9);
-    cut->batch.extra_stress_rate = from_first(batch->extra_stress_rate, first, 6);
-    cut->batch.stress_in = from_first(batch->stress_in, first, 6);
-    cut->batch.stress_out = to_first(batch->stress_out, first, 6);
-    cut->batch.dissipation = to_first(batch->dissipation, first, 1);
-    for (int k = 0; k < it->n_state; ++k) {
-        const int width = it->state[k].n_components;
-        cut->state_in[k] = batch->state_in != NULL ? from_first(batch->state_in[k], first, width) : NULL;
-        cut->state_out[k] = batch->state_out != NULL ? to_first(batch->state_out[k], first, width) : NULL;
-    }
-}
-
 /* All particles of the piece are of one part: it works in place. */
-static mor_status run_whole(const composite *it, int part, const piece *cut, operation run, double *numbers)
+static mor_status run_whole(const composite *it, int part, const mor_piece *cut, mor_operation run, double *numbers)
 {
     const mor_material_instance *law = it->parts[part];
     const double *state_in[MOR_MATERIAL_STATES_MAX];
@@ -120,7 +83,7 @@ static void gather_inputs(gathered *copy, const mor_batch *b, int64_t n)
 }
 
 /* Gathers what an operation may read, lets the part work in place on the copies, and puts back what it may write. */
-static mor_status run_gathered(const composite *it, int part, const piece *cut, int64_t n, operation run,
+static mor_status run_gathered(const composite *it, int part, const mor_piece *cut, int64_t n, mor_operation run,
                                double *numbers, gathered *copy)
 {
     const mor_material_instance *law = it->parts[part];
@@ -173,7 +136,7 @@ static mor_status run_gathered(const composite *it, int part, const piece *cut, 
 }
 
 /* What no part writes goes through: the index, and variables of other parts. */
-static void pass_state(const composite *it, const piece *cut)
+static void pass_state(const composite *it, const mor_piece *cut)
 {
     for (int k = 0; k < it->n_state && cut->batch.state_out != NULL; ++k) {
         if (cut->state_in[k] != NULL && cut->state_out[k] != cut->state_in[k]) {
@@ -183,7 +146,7 @@ static void pass_state(const composite *it, const piece *cut)
     }
 }
 
-static mor_status run_piece(const composite *it, const piece *cut, operation run, double *numbers)
+static mor_status run_piece(const composite *it, const mor_piece *cut, mor_operation run, double *numbers)
 {
     const double *index = cut->state_in[0];
     const int64_t n = cut->batch.n;
@@ -209,15 +172,15 @@ static mor_status run_piece(const composite *it, const piece *cut, operation run
     return MOR_OK;
 }
 
-static mor_status run_parts(const mor_material_instance *instance, const mor_batch *batch, operation run,
+static mor_status run_parts(const mor_material_instance *instance, const mor_batch *batch, mor_operation run,
                             double *numbers)
 {
     const composite *it = instance->data;
     for (int64_t first = 0; first < batch->n; first += CHUNK) {
         const int64_t left = batch->n - first;
-        piece cut;
-        cut_piece(it, batch, first, left < CHUNK ? left : CHUNK, &cut);
-        const mor_status status = run_piece(it, &cut, run, to_first(numbers, first, 1));
+        mor_piece cut;
+        mor_piece_cut(it->state, it->n_state, batch, first, left < CHUNK ? left : CHUNK, &cut);
+        const mor_status status = run_piece(it, &cut, run, mor_piece_numbers(numbers, first));
         if (status != MOR_OK) {
             if (batch->failed != NULL) {
                 *batch->failed += first;
@@ -230,56 +193,26 @@ static mor_status run_parts(const mor_material_instance *instance, const mor_bat
 
 /* ---- Operations -------------------------------------------------------------------------------------------------- */
 
-static mor_status init_one(const mor_material_instance *part, const mor_batch *batch, double *numbers)
-{
-    (void)numbers;
-    return part->operations.init_state(part, batch);
-}
-
-static mor_status advance_one(const mor_material_instance *part, const mor_batch *batch, double *numbers)
-{
-    (void)numbers;
-    return part->operations.advance_rate(part, batch);
-}
-
-#define MOR_COMPOSITE_NUMBERS(name, member)                                                                            \
-    static mor_status name##_one(const mor_material_instance *part, const mor_batch *batch, double *numbers)           \
+#define MOR_COMPOSITE_OPERATION(name, which)                                                                           \
+    static mor_status find_##name(const mor_material_instance *instance, const mor_batch *batch, double *numbers)      \
     {                                                                                                                  \
-        return part->operations.member(part, batch, numbers);                                                          \
-    }                                                                                                                  \
-    static mor_status name(const mor_material_instance *instance, const mor_batch *batch, double *numbers)             \
-    {                                                                                                                  \
-        return run_parts(instance, batch, name##_one, numbers);                                                        \
+        return run_parts(instance, batch, mor_operations[which], numbers);                                             \
     }
-MOR_COMPOSITE_NUMBERS(find_wave_speed, wave_speed)
-MOR_COMPOSITE_NUMBERS(find_energy, energy)
-MOR_COMPOSITE_NUMBERS(find_distance, admissible)
-MOR_COMPOSITE_NUMBERS(find_pressure, pressure)
-MOR_COMPOSITE_NUMBERS(find_max_step, max_step)
-
-/* A part without a field lets nothing flow. */
-static mor_status find_diffusivity_one(const mor_material_instance *part, const mor_batch *batch, double *numbers)
-{
-    if (part->operations.diffusivity != NULL) {
-        return part->operations.diffusivity(part, batch, numbers);
-    }
-    memset(numbers, 0, (size_t)batch->n * sizeof *numbers);
-    return MOR_OK;
-}
-
-static mor_status find_diffusivity(const mor_material_instance *instance, const mor_batch *batch, double *diffusivity)
-{
-    return run_parts(instance, batch, find_diffusivity_one, diffusivity);
-}
+MOR_COMPOSITE_OPERATION(wave_speed, MOR_OPERATION_WAVE_SPEED)
+MOR_COMPOSITE_OPERATION(energy, MOR_OPERATION_ENERGY)
+MOR_COMPOSITE_OPERATION(admissible, MOR_OPERATION_ADMISSIBLE)
+MOR_COMPOSITE_OPERATION(pressure, MOR_OPERATION_PRESSURE)
+MOR_COMPOSITE_OPERATION(max_step, MOR_OPERATION_MAX_STEP)
+MOR_COMPOSITE_OPERATION(diffusivity, MOR_OPERATION_DIFFUSIVITY)
 
 static mor_status init_state(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return run_parts(instance, batch, init_one, NULL);
+    return run_parts(instance, batch, mor_operations[MOR_OPERATION_INIT_STATE], NULL);
 }
 
 static mor_status advance_rate(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return run_parts(instance, batch, advance_one, NULL);
+    return run_parts(instance, batch, mor_operations[MOR_OPERATION_ADVANCE_RATE], NULL);
 }
 
 static mor_status create(const mor_services *services, mor_material_instance *instance)
@@ -367,7 +300,7 @@ static void set_operations(const composite *it, mor_material_operations *operati
                                             .wave_speed = find_wave_speed,
                                             .advance_rate = advance_rate,
                                             .energy = find_energy,
-                                            .admissible = find_distance,
+                                            .admissible = find_admissible,
                                             .pressure = has_pressure ? find_pressure : NULL,
                                             .max_step = has_max_step ? find_max_step : NULL,
                                             .diffusivity = has_field ? find_diffusivity : NULL,

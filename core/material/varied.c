@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/material/params.h"
+#include "core/material/piece.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -40,9 +41,6 @@ typedef struct local_law {
     room memory;
     mor_services services;
 } local_law;
-
-/* An operation on a batch whose result beside the batch's own arrays is one number per particle, or none. */
-typedef mor_status (*operation)(const mor_material_instance *law, const mor_batch *batch, double *numbers);
 
 /* ---- The law of a particle --------------------------------------------------------------------------------------- */
 
@@ -129,43 +127,6 @@ static int64_t find_end(const varied *it, const double *const *values, int64_t f
 
 /* ---- Runs of particles with the same values ---------------------------------------------------------------------- */
 
-/* An array of a batch from a first particle on; NULL stays. */
-static const double *from_first(const double *array, int64_t first, int width)
-{
-    return array != NULL ? array + first * width : NULL;
-}
-
-static double *to_first(double *array, int64_t first, int width)
-{
-    return array != NULL ? array + first * width : NULL;
-}
-
-/* Part of a batch, with the state variables of the law. */
-typedef struct piece {
-    mor_batch batch;
-    const double *state_in[MOR_MATERIAL_STATES_MAX];
-    double *state_out[MOR_MATERIAL_STATES_MAX];
-} piece;
-
-static void cut_piece(const varied *it, const mor_batch *batch, int64_t first, int64_t n, piece *cut)
-{
-    cut->batch = *batch;
-    cut->batch.n = n;
-    cut->batch.density = from_first(batch->density, first, 1);
-    cut->batch.velocity_gradient = from_first(batch->velocity_gradient, first, 9);
-    cut->batch.extra_stress_rate = from_first(batch->extra_stress_rate, first, 6);
-    cut->batch.stress_in = from_first(batch->stress_in, first, 6);
-    cut->batch.stress_out = to_first(batch->stress_out, first, 6);
-    cut->batch.dissipation = to_first(batch->dissipation, first, 1);
-    for (int k = 0; k < it->n_own; ++k) {
-        const int width = it->state[k].n_components;
-        cut->state_in[k] = batch->state_in != NULL ? from_first(batch->state_in[k], first, width) : NULL;
-        cut->state_out[k] = batch->state_out != NULL ? to_first(batch->state_out[k], first, width) : NULL;
-    }
-    cut->batch.state_in = batch->state_in != NULL ? cut->state_in : NULL;
-    cut->batch.state_out = batch->state_out != NULL ? cut->state_out : NULL;
-}
-
 /* The parameters stay what they are. */
 static void pass_values(const varied *it, const mor_batch *batch)
 {
@@ -176,7 +137,7 @@ static void pass_values(const varied *it, const mor_batch *batch)
     }
 }
 
-static mor_status run_same(const varied *it, const mor_batch *batch, const double *parameters, operation run,
+static mor_status run_same(const varied *it, const mor_batch *batch, const double *parameters, mor_operation run,
                            double *numbers)
 {
     if (has_own_values(it, parameters)) {
@@ -194,7 +155,7 @@ static mor_status run_same(const varied *it, const mor_batch *batch, const doubl
     return status;
 }
 
-static mor_status run_varied(const mor_material_instance *instance, const mor_batch *batch, operation run,
+static mor_status run_varied(const mor_material_instance *instance, const mor_batch *batch, mor_operation run,
                              double *numbers)
 {
     const varied *it = (const varied *)instance->material;
@@ -202,11 +163,11 @@ static mor_status run_varied(const mor_material_instance *instance, const mor_ba
     pass_values(it, batch);
     for (int64_t first = 0, end = 0; first < batch->n; first = end) {
         double parameters[MOR_MATERIAL_PARAMETERS_MAX];
-        piece cut;
+        mor_piece cut;
         end = find_end(it, values, first, batch->n);
         read_parameters(it, values, first, parameters);
-        cut_piece(it, batch, first, end - first, &cut);
-        const mor_status status = run_same(it, &cut.batch, parameters, run, to_first(numbers, first, 1));
+        mor_piece_cut(it->state, it->n_own, batch, first, end - first, &cut);
+        const mor_status status = run_same(it, &cut.batch, parameters, run, mor_piece_numbers(numbers, first));
         if (status != MOR_OK) {
             if (batch->failed != NULL) {
                 *batch->failed += first;
@@ -219,53 +180,37 @@ static mor_status run_varied(const mor_material_instance *instance, const mor_ba
 
 /* ---- Operations -------------------------------------------------------------------------------------------------- */
 
-static mor_status init_one(const mor_material_instance *law, const mor_batch *batch, double *numbers)
-{
-    (void)numbers;
-    return law->operations.init_state(law, batch);
-}
-
-static mor_status advance_one(const mor_material_instance *law, const mor_batch *batch, double *numbers)
-{
-    (void)numbers;
-    return law->operations.advance_rate(law, batch);
-}
-
-#define MOR_VARIED_NUMBERS(name, member)                                                                               \
-    static mor_status name##_one(const mor_material_instance *law, const mor_batch *batch, double *numbers)            \
+#define MOR_VARIED_OPERATION(name, which)                                                                              \
+    static mor_status find_##name(const mor_material_instance *instance, const mor_batch *batch, double *numbers)      \
     {                                                                                                                  \
-        return law->operations.member(law, batch, numbers);                                                            \
-    }                                                                                                                  \
-    static mor_status name(const mor_material_instance *instance, const mor_batch *batch, double *numbers)             \
-    {                                                                                                                  \
-        return run_varied(instance, batch, name##_one, numbers);                                                       \
+        return run_varied(instance, batch, mor_operations[which], numbers);                                            \
     }
-MOR_VARIED_NUMBERS(find_wave_speed, wave_speed)
-MOR_VARIED_NUMBERS(find_energy, energy)
-MOR_VARIED_NUMBERS(find_distance, admissible)
-MOR_VARIED_NUMBERS(find_pressure, pressure)
-MOR_VARIED_NUMBERS(find_max_step, max_step)
-MOR_VARIED_NUMBERS(find_diffusivity, diffusivity)
+MOR_VARIED_OPERATION(wave_speed, MOR_OPERATION_WAVE_SPEED)
+MOR_VARIED_OPERATION(energy, MOR_OPERATION_ENERGY)
+MOR_VARIED_OPERATION(admissible, MOR_OPERATION_ADMISSIBLE)
+MOR_VARIED_OPERATION(pressure, MOR_OPERATION_PRESSURE)
+MOR_VARIED_OPERATION(max_step, MOR_OPERATION_MAX_STEP)
+MOR_VARIED_OPERATION(diffusivity, MOR_OPERATION_DIFFUSIVITY)
 
 static mor_status init_state(const mor_material_instance *instance, const mor_batch *batch)
 {
     const varied *it = (const varied *)instance->material;
-    piece cut;
+    mor_piece cut;
     if (it->is_assigned) {
-        return run_varied(instance, batch, init_one, NULL);
+        return run_varied(instance, batch, mor_operations[MOR_OPERATION_INIT_STATE], NULL);
     }
     for (int k = 0; k < it->n_parameters; ++k) {
         for (int64_t i = 0; i < batch->n; ++i) {
             batch->state_out[it->n_own + k][i] = it->inner->parameters[it->offsets[k]];
         }
     }
-    cut_piece(it, batch, 0, batch->n, &cut);
-    return init_one(it->inner, &cut.batch, NULL);
+    mor_piece_cut(it->state, it->n_own, batch, 0, batch->n, &cut);
+    return mor_operations[MOR_OPERATION_INIT_STATE](it->inner, &cut.batch, NULL);
 }
 
 static mor_status advance_rate(const mor_material_instance *instance, const mor_batch *batch)
 {
-    return run_varied(instance, batch, advance_one, NULL);
+    return run_varied(instance, batch, mor_operations[MOR_OPERATION_ADVANCE_RATE], NULL);
 }
 
 static mor_status create(const mor_services *services, mor_material_instance *instance)
@@ -330,28 +275,11 @@ static void set_operations(const mor_material *law, mor_material_operations *ope
                                   .wave_speed = find_wave_speed,
                                   .advance_rate = advance_rate,
                                   .energy = law->operations.energy != NULL ? find_energy : NULL,
-                                  .admissible = law->operations.admissible != NULL ? find_distance : NULL,
+                                  .admissible = law->operations.admissible != NULL ? find_admissible : NULL,
                                   .pressure = law->operations.pressure != NULL ? find_pressure : NULL,
                                   .max_step = law->operations.max_step != NULL ? find_max_step : NULL,
                                   .diffusivity = law->operations.diffusivity != NULL ? find_diffusivity : NULL,
                                   .describe = describe};
-}
-
-/* The speed of waves in soil without stress, from which the host finds its time step. */
-static mor_status find_speed(const mor_material_instance *law, double *speed)
-{
-    const double stress[6] = {0.0};
-    double values[MOR_MATERIAL_STATES_MAX][9] = {{0.0}};
-    double *state[MOR_MATERIAL_STATES_MAX];
-    const double *state_in[MOR_MATERIAL_STATES_MAX];
-    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
-        state[k] = values[k];
-        state_in[k] = values[k];
-    }
-    const mor_batch batch = {
-        .n = 1, .density = &law->density, .stress_in = stress, .state_in = state_in, .state_out = state};
-    const mor_status status = law->operations.init_state(law, &batch);
-    return status == MOR_OK ? law->operations.wave_speed(law, &batch, speed) : status;
 }
 
 /* A law that makes its constants in the host's memory alone cannot make them in the course of a step. */
@@ -384,7 +312,7 @@ static mor_status fill(mor_context *context, varied *it, const int *entries, int
     it->descriptor.state = it->state;
     set_operations(law, &it->descriptor.operations);
     MOR_TRY(context, try_local(context, it));
-    const mor_status status = find_speed(it->inner, &it->speed);
+    const mor_status status = mor_material_find_speed(it->inner, 0, it->inner->density, &it->speed);
     MOR_CHECK(context, status == MOR_OK, MOR_ERROR_ARGUMENT, "the law '%s' tells no speed of waves", law->name);
     return MOR_OK;
 }
@@ -445,7 +373,7 @@ mor_status mor_varied_check(mor_context *context, const mor_material_instance *i
         close_local(it, &local);
         return tell_refusal(context, it, parameters);
     }
-    status = find_speed(&local.instance, &speed);
+    status = mor_material_find_speed(&local.instance, 0, it->inner->density, &speed);
     close_local(it, &local);
     MOR_CHECK(context, status == MOR_OK, MOR_ERROR_ARGUMENT, "the law '%s' tells no speed of waves with them",
               law->name);

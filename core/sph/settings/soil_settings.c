@@ -3,6 +3,7 @@
 #include "core/sph/settings/soil_settings.h"
 
 #include "core/base/math.h"
+#include "core/material/piece.h"
 #include "core/particle/kernel.h"
 
 #include <math.h>
@@ -36,23 +37,8 @@ void mor_soil_sum_lattice(const mor_soil_settings *settings, double smoothing_le
 mor_status mor_soil_kind_find_speed(mor_context *context, const mor_material_instance *material, int index,
                                     mor_soil_kind *kind)
 {
-    const double stress[6] = {0.0};
     double speed = 0.0;
-    double values[MOR_MATERIAL_STATES_MAX][9] = {{0.0}};
-    double *state[MOR_MATERIAL_STATES_MAX];
-    const double *state_in[MOR_MATERIAL_STATES_MAX];
-    for (int k = 0; k < MOR_MATERIAL_STATES_MAX; ++k) {
-        state[k] = values[k];
-        state_in[k] = values[k];
-    }
-    values[0][0] = index; /* of a composite; any other law writes its own */
-    mor_batch batch = {
-        .n = 1, .density = &kind->reference_density, .stress_in = stress, .state_in = state_in, .state_out = state};
-    const mor_material_operations *operations = &material->operations;
-    mor_status status = operations->init_state(material, &batch);
-    if (status == MOR_OK) {
-        status = operations->wave_speed(material, &batch, &speed);
-    }
+    const mor_status status = mor_material_find_speed(material, index, kind->reference_density, &speed);
     MOR_CHECK(context, status == MOR_OK && speed > 0.0 && isfinite(speed), MOR_ERROR_NUMERIC,
               "material '%s' gives a wave speed of %g m/s; it must be positive and finite", material->material->name,
               speed);
