@@ -15,7 +15,7 @@
 static const double mass_allowed = 0.01;
 static const double side_allowed = 0.002;
 
-enum { ADVICE_BYTES = 512, SPACINGS_TRIED = 64 };
+enum { ADVICE_BYTES = 512, WHICH_BYTES = MOR_CASE_NAME_BYTES + 64, SPACINGS_TRIED = 64 };
 
 /* ---- Volume of a region ------------------------------------------------------------------------------------------ */
 
@@ -323,28 +323,34 @@ static void find_coarse_bodies(const mor_simulation *s, bool are_carried, double
     }
 }
 
-static void name_coarse_bodies(const coarse_bodies *it, char *text, size_t n_bytes)
+/* Finds bodies with fewer spacings from the center to the side than a limit, names them, and tells what the spacing
+ * that is enough costs; false: there are none.
+ *  which: shape [WHICH_BYTES]; cost: shape [ADVICE_BYTES] */
+static bool describe_coarse_bodies(const mor_simulation *s, bool are_carried, double enough, coarse_bodies *found,
+                                   char *which, char *cost)
 {
-    snprintf(text, n_bytes, "%d bodies are coarse: '%s' has", it->n, it->coarsest->name);
-    if (it->n == 1) {
-        snprintf(text, n_bytes, "body '%s' has", it->coarsest->name);
+    find_coarse_bodies(s, are_carried, enough, found);
+    if (found->coarsest == NULL) {
+        return false;
     }
+    snprintf(which, WHICH_BYTES, "%d bodies are coarse: '%s' has", found->n, found->coarsest->name);
+    if (found->n == 1) {
+        snprintf(which, WHICH_BYTES, "body '%s' has", found->coarsest->name);
+    }
+    mor_resolution_describe_cost(s, found->least * s->the_case->spacing / enough, cost, ADVICE_BYTES);
+    return true;
 }
 
 static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
 {
-    const mor_case *c = s->the_case;
-    const bool is_reconstructed = c->numerics.reconstruction == 1;
+    const bool is_reconstructed = s->the_case->numerics.reconstruction == 1;
     const double enough = mor_simulation_radius_enough(is_reconstructed);
     coarse_bodies found;
-    char which[MOR_CASE_NAME_BYTES + 64];
+    char which[WHICH_BYTES];
     char cost[ADVICE_BYTES];
-    find_coarse_bodies(s, false, enough, &found);
-    if (found.coarsest == NULL) {
+    if (!describe_coarse_bodies(s, false, enough, &found, which, cost)) {
         return;
     }
-    name_coarse_bodies(&found, which, sizeof which);
-    mor_resolution_describe_cost(s, found.least * c->spacing / enough, cost, sizeof cost);
     mor_context_log(
         context, MOR_LOG_WARNING,
         "%s %.3g spacings from the center to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
@@ -358,20 +364,16 @@ static void warn_of_coarse_carried_bodies(mor_context *context, const mor_simula
 {
     const mor_case *c = s->the_case;
     coarse_bodies found;
-    char which[MOR_CASE_NAME_BYTES + 64];
+    char which[WHICH_BYTES];
     char cost[ADVICE_BYTES];
-    find_coarse_bodies(s, true, MOR_RESOLUTION_RADIUS, &found);
-    if (found.coarsest == NULL) {
+    if (!describe_coarse_bodies(s, true, MOR_RESOLUTION_RADIUS, &found, which, cost)) {
         return;
     }
-    name_coarse_bodies(&found, which, sizeof which);
-    mor_resolution_describe_cost(s, found.least * c->spacing / MOR_RESOLUTION_RADIUS, cost, sizeof cost);
     mor_context_log(
         context, MOR_LOG_WARNING,
         "%s %.3g spacings across and is carried by soil; nothing was measured below five, where balls sink up to "
         "%.0f %% too little into sand (docs/guide/resolution.md): whether it rises, is overtaken or passes a slit may "
-        "be "
-        "wrong; use a spacing of at most %s, or fewer bodies, of %.3g m and more",
+        "be wrong; use a spacing of at most %s, or fewer bodies, of %.3g m and more",
         which, 2.0 * found.least,
         100.0 * mor_simulation_depth_error(MOR_RESOLUTION_RADIUS, c->numerics.reconstruction == 1), cost,
         2.0 * MOR_RESOLUTION_RADIUS * c->spacing);
