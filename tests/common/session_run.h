@@ -57,4 +57,31 @@ static inline void session_run_text(run_folder *folder, const char *text, const 
     assert_int_equal(session_run_do(folder, &it, name), MOR_SESSION_FINISHED);
 }
 
+/** Checks that a run which is stopped, and resumed with another number of threads, gives the bits and the bytes of its
+ *  table that one gives which goes through. Returns the last entry of the last row of the table, for the caller to see
+ *  that something has happened. */
+static inline double session_run_expect_resumable(run_folder *folder, const char *text, double stop_at)
+{
+    char path[MOR_PATH_BYTES];
+    char hashes[2][32];
+    finished_run_store_text(folder, text, path);
+    const session_run whole = {.case_path = path, .name = "whole", .stop_at = NAN, .n_threads = 1};
+    const session_run part = {.case_path = path, .name = "part", .stop_at = stop_at, .n_threads = 2};
+    const session_run rest = {.case_path = path, .name = "part", .stop_at = NAN, .is_resume = true, .n_threads = 3};
+    session_run_do(folder, &whole, "whole");
+    assert_int_equal(session_run_do(folder, &part, "part"), MOR_SESSION_STOPPED);
+    session_run_do(folder, &rest, "rest");
+    finished_run_read_hash(folder, "whole", hashes[0]);
+    finished_run_read_hash(folder, "part", hashes[1]);
+    assert_string_equal(hashes[0], hashes[1]);
+    finished_run_compare_bytes(folder, "whole", "part", MOR_TABLE_SERIES_FILE);
+    mor_table_data rows;
+    assert_int_equal(
+        mor_table_data_read(&folder->context, &rows, finished_run_file(folder, path, "whole", MOR_TABLE_SERIES_FILE)),
+        MOR_OK);
+    const double last = rows.values[rows.n_rows * rows.n_columns - 1];
+    mor_table_data_clear(&folder->context, &rows);
+    return last;
+}
+
 #endif

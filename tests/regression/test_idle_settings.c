@@ -51,20 +51,25 @@ static const idle_row rows[] = {
     {"soil[0].initial_stress.formula=(\"0\", \"19e3*(0.4 - y)\", \"0\", \"0\")", "!is tension in"}, /* 40 of 100 */
 };
 
+/* Checks a case with one setting more, and expects a text in what is told, or none after '!'. */
+static void expect_told(run_folder *folder, const char *text, const char *setting, const char *told)
+{
+    char path[MOR_PATH_BYTES];
+    const char *const arguments[] = {"check", path, "-t", "1", "-s", setting, NULL};
+    finished_run_store_text(folder, text, path);
+    program_outcome outcome = program_run(folder, arguments, 0);
+    if (told[0] != '!') {
+        program_expect_text(outcome.output, told);
+    } else if (strstr(outcome.output, told + 1) != NULL) {
+        fail_msg("'%s' has an effect and was warned of: %s", setting, outcome.output);
+    }
+    program_clear(&outcome);
+}
+
 static void settings_without_effect_are_warned_of(void **state)
 {
-    run_folder *folder = *state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
-        char path[MOR_PATH_BYTES];
-        const char *const arguments[] = {"check", path, "-t", "1", "-s", rows[k].setting, NULL};
-        finished_run_store_text(folder, column, path);
-        program_outcome outcome = program_run(folder, arguments, 0);
-        if (rows[k].text[0] != '!') {
-            program_expect_text(outcome.output, rows[k].text);
-        } else if (strstr(outcome.output, rows[k].text + 1) != NULL) {
-            fail_msg("row %zu has an effect and was warned of: %s", k, outcome.output);
-        }
-        program_clear(&outcome);
+        expect_told(*state, column, rows[k].setting, rows[k].text);
     }
 }
 
@@ -81,18 +86,9 @@ static void regions_on_walls_that_soil_has_yet_to_reach_are_no_mistake(void **st
         "gauges = ( { name = 'far'; wall = 'floor'; direction = (0, 1);"
         "  region = { type = 'box'; min = (100, -0.2); max = (102, 0.2); }; } );"
         "output = { snapshots = 1; pictures = false; };";
-    run_folder *folder = *state;
-    char path[MOR_PATH_BYTES];
-    const char *const on_it[] = {"check", path, NULL};
-    const char *const over_it[] = {"check", path, "-s",
-                                   "gauges[0].region={type=\"box\"; min=(100.0, 1.5); max=(102.0, 2.5);}", NULL};
-    finished_run_store_text(folder, floor, path);
-    program_outcome outcome = program_run(folder, on_it, 0);
-    assert_null(strstr(outcome.output, "has a region"));
-    program_clear(&outcome);
-    outcome = program_run(folder, over_it, 0);
-    program_expect_text(outcome.output, "gauge 'far' has a region that is at least");
-    program_clear(&outcome);
+    expect_told(*state, floor, "gauges[0].name=strip", "!has a region");
+    expect_told(*state, floor, "gauges[0].region={type=\"box\"; min=(100.0, 1.5); max=(102.0, 2.5);}",
+                "gauge 'far' has a region that is at least");
 }
 
 static void maps_of_the_end_alone_are_warned_of(void **state)
@@ -104,17 +100,8 @@ static void maps_of_the_end_alone_are_warned_of(void **state)
         "  material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '1 MPa';"
         "    poissons_ratio = 0.2; friction_angle = '30 deg'; cohesion = '50 kPa'; }; } );"
         "output = { snapshots = 1; pictures = false; };";
-    run_folder *folder = *state;
-    char path[MOR_PATH_BYTES];
-    const char *const few[] = {"check", path, "-s", "maps.interval=3", NULL};
-    const char *const none[] = {"check", path, "-s", "maps.interval=1000", NULL};
-    finished_run_store_text(folder, block, path);
-    program_outcome outcome = program_run(folder, few, 0);
-    assert_null(strstr(outcome.output, "maps.interval"));
-    program_clear(&outcome);
-    outcome = program_run(folder, none, 0);
-    program_expect_text(outcome.output, "maps.interval = 1000 is more than the run has steps");
-    program_clear(&outcome);
+    expect_told(*state, block, "maps.interval=3", "!maps.interval");
+    expect_told(*state, block, "maps.interval=1000", "maps.interval = 1000 is more than the run has steps");
 }
 
 /* A second stage that digs in the air, and sets soil in motion that has its motion from the first. */

@@ -37,27 +37,8 @@ static const char flow[] =
 
 static void a_resumed_run_has_the_same_bits(void **state)
 {
-    run_folder *folder = *state;
-    char path[MOR_PATH_BYTES];
-    char hashes[2][32];
-    finished_run_store_text(folder, flow, path);
-    const session_run whole = {.case_path = path, .name = "whole", .stop_at = NAN, .n_threads = 1};
-    const session_run part = {.case_path = path, .name = "part", .stop_at = 0.05, .n_threads = 2};
-    const session_run rest = {.case_path = path, .name = "part", .stop_at = NAN, .is_resume = true, .n_threads = 3};
-    session_run_do(folder, &whole, "whole");
-    assert_int_equal(session_run_do(folder, &part, "part"), MOR_SESSION_STOPPED);
-    session_run_do(folder, &rest, "rest");
-    finished_run_read_hash(folder, "whole", hashes[0]);
-    finished_run_read_hash(folder, "part", hashes[1]);
-    assert_string_equal(hashes[0], hashes[1]);
-    finished_run_compare_bytes(folder, "whole", "part", MOR_TABLE_SERIES_FILE);
-    mor_table_data rows;
-    assert_int_equal(
-        mor_table_data_read(&folder->context, &rows, finished_run_file(folder, path, "whole", MOR_TABLE_SERIES_FILE)),
-        MOR_OK);
     /* 40 kg/m: more than half of it has passed the plane, or less is compared. */
-    assert_true(rows.values[rows.n_rows * rows.n_columns - 1] > 20.0);
-    mor_table_data_clear(&folder->context, &rows);
+    assert_true(session_run_expect_resumable(*state, flow, 0.05) > 20.0);
 }
 
 static void a_run_does_not_go_on_with_another_period(void **state)
