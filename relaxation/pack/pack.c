@@ -265,8 +265,8 @@ static bool place_rock(mor_pack_state *state, int n_before, placing *work, mor_p
     return false;
 }
 
-/* Places rocks from the largest to the smallest; returns the number without a position. */
-static int place_rocks(mor_pack_state *state, double target)
+/* Places rocks from the largest to the smallest; returns the number without a position, and their largest diameter. */
+static int place_rocks(mor_pack_state *state, double target, double *largest_given_up)
 {
     const mor_pack_request *request = state->request;
     const double smallest = request->diameters[0];
@@ -282,7 +282,10 @@ static int place_rocks(mor_pack_state *state, double target)
         }
         if (place_rock(state, n_before, &work, &item)) {
             placed += volume;
-        } else if (item.diameter > smallest * (1.0 + same_size)) {
+            continue;
+        }
+        *largest_given_up = fmax(*largest_given_up, item.diameter);
+        if (item.diameter > smallest * (1.0 + same_size)) {
             n_given_up += 1;
             cap = fmax(smallest, cap_step * item.diameter);
         } else {
@@ -293,7 +296,7 @@ static int place_rocks(mor_pack_state *state, double target)
 }
 
 /* Places a number of rocks of the curve; rocks without a position are not replaced by others. Returns their number. */
-static int place_count(mor_pack_state *state, double target)
+static int place_count(mor_pack_state *state, double target, double *largest_given_up)
 {
     const mor_pack_request *request = state->request;
     placing work = {.n_tries = request->most_tries};
@@ -302,7 +305,10 @@ static int place_count(mor_pack_state *state, double target)
     for (int n_before = 0; n_before < request->count; ++n_before) {
         mor_pack_item item = {.diameter = choose_diameter(request, drawn, target)};
         drawn += rock_volume(request->dimension, item.diameter);
-        n_given_up += !place_rock(state, n_before, &work, &item);
+        if (!place_rock(state, n_before, &work, &item)) {
+            *largest_given_up = fmax(*largest_given_up, item.diameter);
+            n_given_up += 1;
+        }
     }
     return n_given_up;
 }
@@ -380,6 +386,13 @@ static mor_status write_result(mor_context *context, const mor_pack_state *state
     result->n_rocks = state->n_items;
     result->content = total / region_volume;
     result->smallest_gap = find_smallest_gap(state);
+    const double largest = result->n_rocks > 0 ? result->rocks[0].diameter : 0.0;
+    if (largest > 0.0 && result->largest_given_up > largest * (1.0 + same_size)) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "no rock larger than %.4g m found a position; the size distribution asks for some of %.4g m: "
+                        "sizes above are cut off; enlarge the region, lower margin or gap, or ask for smaller rocks",
+                        largest, result->largest_given_up);
+    }
     if (result->n_given_up > 0 && request->count == 0) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "rocks fill %.2f %% of their region, %.2f %% was requested: no position was found for %d "
@@ -414,7 +427,8 @@ mor_status mor_pack(mor_context *context, const mor_pack_request *request, mor_p
     const double target = request->count > 0 ? find_target(request, request->count) : request->content * region_volume;
     mor_status status = prepare(context, &state, target);
     if (status == MOR_OK) {
-        result->n_given_up = request->count > 0 ? place_count(&state, target) : place_rocks(&state, target);
+        result->n_given_up = request->count > 0 ? place_count(&state, target, &result->largest_given_up)
+                                                : place_rocks(&state, target, &result->largest_given_up);
         status = write_result(context, &state, region_volume, result);
     }
     clear_state(&state);

@@ -53,6 +53,7 @@ typedef struct mor_pack_result {
     mor_pack_rock *rocks; /* shape [n_rocks]; largest first */
     int n_rocks;
     int n_given_up;                     /* rocks for which no position was found */
+    double largest_given_up;            /* diameter of the largest of them, m; 0: there is none */
     double content;                     /* reached: by exact volumes of the rocks, 1 */
     double passing[MOR_PACK_SIZES_MAX]; /* reached, by volume, 1 */
     double smallest_gap;                /* between any two rocks, by the exact check, m; INFINITY for one rock */

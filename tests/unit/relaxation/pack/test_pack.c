@@ -295,6 +295,33 @@ static void what_cannot_be_reached_is_said(void **state)
     close_slope(&s);
 }
 
+/* A layer of 6 m has no room for rocks of 12 m, but for those of 2 m. */
+static void sizes_without_room_are_named(void **state)
+{
+    (void)state;
+    static const double diameters[] = {2.0, 12.0};
+    static const double passing[] = {0.0, 1.0};
+    static const double corners[] = {0.0, 0.0, 200.0, 0.0, 200.0, 6.0, 0.0, 6.0};
+    slope s;
+    mor_shape *layer = NULL;
+    mor_pack_result result;
+    open_slope(&s, 1.0);
+    assert_int_equal(mor_shape_new_polygon(&s.context, corners, 4, &layer), MOR_OK);
+    s.request.region = layer;
+    s.request.diameters = diameters;
+    s.request.passing = passing;
+    s.request.n_sizes = 2;
+    s.request.content = 0.4;
+    s.request.most_tries = 500;
+    assert_int_equal(mor_pack(&s.context, &s.request, &result), MOR_OK);
+    assert_true(result.n_rocks > 0 && result.rocks[0].diameter < 7.0); /* the forms are not round */
+    assert_true(result.largest_given_up > 10.0);
+    assert_int_equal(s.n_warnings, 2); /* of the sizes, and of the content */
+    mor_pack_clear(&s.context, &result);
+    mor_shape_free(&s.context, &layer);
+    close_slope(&s);
+}
+
 static void rocks_keep_off_an_obstacle_inside_and_out(void **state)
 {
     (void)state;
@@ -559,6 +586,7 @@ int main(void)
         cmocka_unit_test(rocks_stick_out_as_far_as_a_negative_margin_lets_them),
         cmocka_unit_test(same_seed_gives_the_same_and_units_change_no_bit),
         cmocka_unit_test(what_cannot_be_reached_is_said),
+        cmocka_unit_test(sizes_without_room_are_named),
         cmocka_unit_test(rocks_keep_off_an_obstacle_inside_and_out),
         cmocka_unit_test(balls_fill_a_box_to_20_percent_in_space),
         cmocka_unit_test(angular_rocks_keep_apart_in_space_as_they_are_turned),
