@@ -157,7 +157,9 @@ static mor_status draw_gauge(mor_context *context, const mor_table_data *data, c
     snprintf(name, sizeof name, "images/gauge_%s_map.png", the_case->gauges[gauge].name);
     MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
     MOR_TRY(context, mor_gauge_map_picture_draw(context, &the_case->gauges[gauge], map, path));
-    fprintf(output, "chart: %s\n", path);
+    if (access(path, F_OK) == 0) { /* no force on it, no picture */
+        fprintf(output, "chart: %s\n", path);
+    }
     return MOR_OK;
 }
 
