@@ -25,7 +25,8 @@ mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
         return MOR_OK;
     }
     MOR_TRY(context, MOR_NEW(context, &soil->energy, 1, "audit of energy"));
-    MOR_TRY(context, MOR_NEW(context, &soil->energy->scratch, 3 * n, "audit of energy"));
+    MOR_TRY(context, MOR_NEW(context, &soil->energy->scratch, MOR_PAIR_POWERS * n, "audit of energy"));
+    soil->energy->find_powers = mor_pair_audit_select(NULL);
     MOR_TRY(context, MOR_NEW(context, &soil->energy->strains, 12 * n, "audit of energy"));
     return MOR_NEW(context, &soil->energy->block_sums, mor_block_count(n) * PARTS, "blocks of the audit of energy");
 }

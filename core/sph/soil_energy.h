@@ -4,6 +4,7 @@
 #define MOR_CORE_SPH_SOIL_ENERGY_H
 
 #include "core/base/context.h"
+#include "core/sph/pair/pair_audit.h"
 
 #include <stdint.h>
 
@@ -49,15 +50,16 @@ typedef struct mor_soil_energy {
     int64_t stride;                          /* steps from the last sample to the next; 0 before the first */
     int64_t next;                            /* number of the step of the next sample */
     double fresh[MOR_SOIL_ENERGY_PARTS];     /* powers of the present step, W (W/m) */
-    double *scratch;                         /* shape [n_particles, 3]; accelerations [m/s2] or powers [W (W/m)] */
+    double *scratch;                         /* shape [n_particles, MOR_PAIR_POWERS]; powers, W (W/m) */
     double *strains;                         /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
                                           * those that slip, 1/s */
+    mor_pair_audit_loop find_powers;         /* of the pair forces */
     double *block_sums;                      /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
 } mor_soil_energy;
 
 /** Switches the audit of a soil on.
  *  @param soil    [in,out]  before its first step
- *  Returns: MOR_OK, also when it is on; MOR_ERROR_MEMORY. Cost: allocates 120 bytes per particle; a few percent of a
+ *  Returns: MOR_OK, also when it is on; MOR_ERROR_MEMORY. Cost: allocates 128 bytes per particle; a few percent of a
  *  run. */
 mor_status mor_soil_watch_energy(mor_context *context, struct mor_soil *soil);
 

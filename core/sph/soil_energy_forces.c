@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/sph/boundary/soil_contact_internal.h"
+#include "core/sph/pair/pair_audit.h"
 #include "core/sph/soil_internal.h"
 
 #include <string.h>
@@ -140,139 +141,65 @@ static void find_motion_block(void *powers, int64_t first, int64_t last, double 
     }
 }
 
-/* What the accelerations in the scratch take, into a part. */
-static void add_scratch(const mor_soil_powers *job, int64_t first, int64_t last, double *sum)
+static void find_pairs_block(void *powers, int64_t first, int64_t last, double *sums)
 {
+    static const mor_soil_energy_part parts[MOR_PAIR_POWERS] = {[MOR_PAIR_POWER_RIEMANN] = MOR_SOIL_ENERGY_RIEMANN,
+                                                                [MOR_PAIR_POWER_ARTIFICIAL] =
+                                                                    MOR_SOIL_ENERGY_ARTIFICIAL,
+                                                                [MOR_PAIR_POWER_HOURGLASS] = MOR_SOIL_ENERGY_HOURGLASS,
+                                                                [MOR_PAIR_POWER_STRESS] = MOR_SOIL_ENERGY_CORRECTION};
+    const mor_soil_powers *job = powers;
+    const double *found = job->soil->energy->scratch;
     for (int64_t i = first; i < last; ++i) {
-        double middle[3];
-        find_middle_velocity(job, i, middle);
-        *sum -= job->mass[i] * mor_vector_dot(job->soil->energy->scratch + 3 * i, middle);
+        for (int k = 0; k < MOR_PAIR_POWERS; ++k) {
+            sums[parts[k]] += found[MOR_PAIR_POWERS * i + k];
+        }
     }
 }
 
-static void find_riemann_block(void *job, int64_t first, int64_t last, double *sums)
+/* Velocities of the records: those that the momentum loop saw, or those of now. */
+static void set_velocities(mor_context *context, const mor_soil_powers *job, bool is_before)
 {
-    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_RIEMANN);
-}
-
-static void find_artificial_block(void *job, int64_t first, int64_t last, double *sums)
-{
-    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_ARTIFICIAL);
-}
-
-static void find_hourglass_block(void *job, int64_t first, int64_t last, double *sums)
-{
-    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_HOURGLASS);
-}
-
-static void find_correction_block(void *job, int64_t first, int64_t last, double *sums)
-{
-    add_scratch(job, first, last, sums + MOR_SOIL_ENERGY_CORRECTION);
-}
-
-/* Records as the momentum loop saw them, but without stress; a skew part stays. */
-static void strip_records(mor_context *context, const mor_soil_powers *job)
-{
+    const double length = is_before ? job->step->length : 0.0;
     MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
-        double *record = job->records + i * MOR_RECORD_SIZE;
-        double *extra = job->soil->extra != NULL ? job->soil->extra + i * MOR_EXTRA_SIZE : NULL;
-        for (int a = 0; a < 3 && extra != NULL; ++a) {
-            extra[MOR_EXTRA_LOWER + a] -= record[MOR_RECORD_STRESS + MOR_XY + a];
-            extra[MOR_EXTRA_UPPER + a % 2] = -extra[MOR_EXTRA_LOWER + a % 2];
-        }
         for (int a = 0; a < 3; ++a) {
-            record[MOR_RECORD_VELOCITY + a] -= job->step->length * job->acceleration[3 * i + a];
+            job->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + a] =
+                job->velocity[3 * i + a] - length * job->acceleration[3 * i + a];
         }
-        memset(record + MOR_RECORD_STRESS, 0, 6 * sizeof *record);
     }
-    mor_soil_follow_records(context, job->soil);
+    mor_images_follow(context, &job->soil->images, job->records, MOR_RECORD_SIZE, MOR_RECORD_POSITION);
 }
 
-/* Takes away the skew part, too. */
-static void strip_skew(mor_context *context, const mor_soil *soil)
-{
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        memset(soil->extra + i * MOR_EXTRA_SIZE + MOR_EXTRA_LOWER, 0, 5 * sizeof *soil->extra);
-    }
-    mor_soil_follow_records(context, soil);
-}
-
-/* The stress of the start of the step, beside the velocities that the momentum loop saw. */
-static void restore_stress(mor_context *context, const mor_soil_powers *job)
-{
-    MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
-        memcpy(job->records + i * MOR_RECORD_SIZE + MOR_RECORD_STRESS, job->stress + 6 * i, 6 * sizeof *job->records);
-    }
-    mor_soil_follow_records(context, job->soil);
-}
-
-static void restore_records(mor_context *context, const mor_soil_powers *job)
-{
-    MOR_PARALLEL_FOR (context, i, job->soil->set.n_particles, MOR_BLOCK) {
-        double *record = job->records + i * MOR_RECORD_SIZE;
-        memcpy(record + MOR_RECORD_VELOCITY, job->velocity + 3 * i, 3 * sizeof *record);
-    }
-    restore_stress(context, job);
-}
-
-/* Whether samples are at the longest interval, and this is one of three of four that reuse the last power of the
- * artificial stress: its loop is expensive and its power small. */
-static bool is_calm(const mor_soil *soil, const mor_step *step)
-{
-    return soil->energy->stride == MOR_SOIL_ENERGY_INTERVAL && step->number / MOR_SOIL_ENERGY_INTERVAL % 4 != 0;
-}
-
-/* Power of what one switch of the momentum loop adds to the Riemann terms. */
-static void audit_switch(mor_context *context, mor_soil_powers *job, const mor_pair_arrays *arrays,
-                         const mor_pair_constants *constants, mor_soil_energy_part part, mor_reduce_block block)
-{
-    mor_soil *soil = job->soil;
-    mor_soil_run_pairs(context, constants, arrays, soil->table->momentum[soil->settings.dimension - 2]);
-    mor_soil_energy_add(context, job, block);
-    soil->energy->fresh[part] -= soil->energy->fresh[MOR_SOIL_ENERGY_RIEMANN];
-}
-
-/* (E6): the momentum loop once more with what is not stress, first without and then with each of what may be switched
- * on alone. Particles are where they were, so that the short lists come out the same. */
+/* (E6), (E8): each part of the pair forces. Particles are where they were, so that the short lists are those of the
+ * momentum loop; what sleeps stands still. */
 static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *view)
 {
     mor_soil *soil = job->soil;
-    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
-    mor_pair_constants none = soil->constants;
-    mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
+    mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
     arrays.artificial_stress = mor_images_extend(
         context, &soil->images, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), 6, soil->image_stress);
     arrays.strain_rate =
         mor_images_extend(context, &soil->images, mor_view_read(view, MOR_FIELD_STRAIN_RATE), 6, soil->image_strains);
-    arrays.acceleration = soil->energy->scratch;
-    none.diffusion_rate = 0.0;
-    none.has_artificial_stress = none.has_hourglass = none.has_spin = false;
-    strip_records(context, job);
-    mor_soil_run_pairs(context, &none, &arrays, soil->table->momentum[soil->settings.dimension - 2]);
-    mor_soil_energy_add(context, job, find_riemann_block);
-    mor_pair_constants one = none;
-    if (soil->settings.scheme.artificial_stress && is_calm(soil, job->step)) {
-        soil->energy->fresh[MOR_SOIL_ENERGY_ARTIFICIAL] = soil->energy->power[MOR_SOIL_ENERGY_ARTIFICIAL];
-    } else if (soil->settings.scheme.artificial_stress) {
-        one.has_artificial_stress = true;
-        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_ARTIFICIAL, find_artificial_block);
+    const mor_pair_audit_job pairs = {.constants = &soil->constants,
+                                      .arrays = &arrays,
+                                      .velocity = job->velocity,
+                                      .has_stress = mor_soil_corrects_gradient(soil),
+                                      .powers = soil->energy->scratch};
+    set_velocities(context, job, true);
+    const int64_t n = arrays.inner->n_clusters;
+    MOR_PARALLEL_FOR (context, block, (n + MOR_SLEEP_CLUSTERS - 1) / MOR_SLEEP_CLUSTERS, 1) {
+        const int64_t first = block * MOR_SLEEP_CLUSTERS;
+        const int64_t last = first + MOR_SLEEP_CLUSTERS < n ? first + MOR_SLEEP_CLUSTERS : n;
+        if (mor_sleep_is(arrays.asleep, first, MOR_SLEEP_ASLEEP)) {
+            const int64_t end = last * MOR_CLUSTER < arrays.n_particles ? last * MOR_CLUSTER : arrays.n_particles;
+            memset(pairs.powers + first * MOR_CLUSTER * MOR_PAIR_POWERS, 0,
+                   (size_t)((end - first * MOR_CLUSTER) * MOR_PAIR_POWERS) * sizeof *pairs.powers);
+        } else {
+            soil->energy->find_powers(&pairs, first, last);
+        }
     }
-    if (soil->constants.has_spin) {
-        one = none;
-        one.has_spin = true;
-        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_CORRECTION, find_correction_block);
-    }
-    if (soil->constants.has_hourglass) {
-        strip_skew(context, soil);
-        one = none;
-        one.has_hourglass = true;
-        audit_switch(context, job, &arrays, &one, MOR_SOIL_ENERGY_HOURGLASS, find_hourglass_block);
-    }
-    if (mor_soil_corrects_gradient(soil)) {
-        restore_stress(context, job);
-        audit_switch(context, job, &arrays, &none, MOR_SOIL_ENERGY_CORRECTION, find_correction_block);
-    }
-    restore_records(context, job);
+    set_velocities(context, job, false);
+    mor_soil_energy_add(context, job, find_pairs_block);
 }
 
 mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
@@ -289,9 +216,7 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
                            .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
                            .mass = mor_view_read(view, MOR_FIELD_MASS),
                            .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
-                           .acceleration = mor_view_read(view, MOR_FIELD_ACCELERATION),
-                           .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
-                           .stress = mor_view_read(view, MOR_FIELD_STRESS)};
+                           .acceleration = mor_view_read(view, MOR_FIELD_ACCELERATION)};
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
