@@ -15,8 +15,10 @@
 /* Particles handed to a material at once; a block is a whole number of them. */
 enum { BATCH = MOR_SOIL_BATCH, PARTS = MOR_SOIL_ENERGY_PARTS };
 
-/* Largest error of the interpolation between samples, over the energy converted so far. */
+/* Largest error of the line between two samples, over the energy converted so far and soon: in as many steps at the
+ * present powers, so that the start of a run, when hardly any energy has been converted, is not sampled in each. */
 #define LARGEST_ERROR 1.0e-3
+#define SOON (4.0 * MOR_SOIL_ENERGY_INTERVAL)
 
 mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
 {
@@ -47,8 +49,9 @@ void mor_soil_restart_energy(mor_soil *soil)
         mor_soil_energy *energy = soil->energy;
         memset(energy->integral, 0, sizeof energy->integral);
         memset(energy->power, 0, sizeof energy->power);
+        memset(energy->previous, 0, sizeof energy->previous);
         memset(energy->collected, 0, sizeof energy->collected);
-        energy->span = energy->turnover = energy->width = 0.0;
+        energy->span = energy->reach = energy->turnover = energy->width = 0.0;
         energy->stride = energy->next = energy->n_collected = 0;
     }
 }
@@ -170,8 +173,32 @@ static void find_stress_block(void *powers, int64_t first, int64_t last, double 
     }
 }
 
-/* A sample stands for the middle of its steps. The first one reaches back to the start. Where the straight line to a
- * sample may be wrong by more than a share of the energy converted so far, the next sample comes sooner. */
+/* Error of the integrals had the last sample been left out, J (J/m): that of twice the interval, for smooth powers four
+ * times that of the present one. With one sample so far all that the powers changed by. */
+static double find_error(const mor_soil_energy *energy, const double *now, double reach)
+{
+    const double both = energy->reach + reach;
+    const double share = energy->reach > 0.0 ? energy->reach / both : 0.0;
+    double error = 0.0;
+    for (int part = 0; part < PARTS; ++part) {
+        const double before = energy->reach > 0.0 ? energy->previous[part] : energy->power[part];
+        const double line = before + share * (now[part] - before);
+        error += 0.5 * (energy->reach > 0.0 ? both * fabs(energy->power[part] - line) : reach * fabs(now[part] - line));
+    }
+    return error;
+}
+
+/* The interval to the next sample: half, as long, or twice as long as the last one. */
+static int64_t choose_stride(const mor_soil_energy *energy, double error, double soon)
+{
+    const double allowed = LARGEST_ERROR * (energy->turnover + soon);
+    int64_t stride = error > 4.0 * allowed ? energy->stride / 2 : energy->stride;
+    stride = error <= allowed ? 2 * energy->stride : stride;
+    stride = stride < MOR_SOIL_ENERGY_INTERVAL ? stride : MOR_SOIL_ENERGY_INTERVAL;
+    return stride > 1 ? stride : 1;
+}
+
+/* A sample stands for the middle of its steps. The first one reaches back to the start. */
 static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_steps)
 {
     energy->width += step->length;
@@ -184,24 +211,28 @@ static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_s
         energy->next = (int64_t)step->number + 1;
         return;
     }
-    const double reach = energy->span + step->length - 0.5 * energy->width;
     const bool is_first = energy->stride == 0;
-    double change = 0.0;
+    const double reach = energy->span + step->length - 0.5 * energy->width;
+    double now[PARTS];
+    double size = 0.0;
     for (int part = 0; part < PARTS; ++part) {
-        const double now = energy->collected[part] / (double)n_steps;
-        const double before = is_first ? now : energy->power[part];
-        energy->integral[part] += 0.5 * (before + now) * reach;
-        energy->turnover += 0.5 * (fabs(before) + fabs(now)) * reach;
-        energy->power[part] = now;
-        change += 0.5 * fabs(now - before) * reach;
+        now[part] = energy->collected[part] / (double)n_steps;
+        size += fabs(now[part]);
     }
-    const int64_t wanted = change > LARGEST_ERROR * energy->turnover ? energy->stride / 2 : 2 * energy->stride;
-    const int64_t bounded = wanted < MOR_SOIL_ENERGY_INTERVAL ? wanted : MOR_SOIL_ENERGY_INTERVAL;
+    const double error = is_first ? 0.0 : find_error(energy, now, reach);
+    for (int part = 0; part < PARTS; ++part) {
+        const double before = is_first ? now[part] : energy->power[part];
+        energy->integral[part] += 0.5 * (before + now[part]) * reach;
+        energy->turnover += 0.5 * (fabs(before) + fabs(now[part])) * reach;
+    }
+    energy->stride = choose_stride(energy, error, size * SOON * step->length);
+    energy->reach = is_first ? 0.0 : reach;
+    memcpy(energy->previous, energy->power, sizeof energy->previous);
+    memcpy(energy->power, now, sizeof energy->power);
+    memset(energy->collected, 0, sizeof energy->collected);
     energy->span = 0.5 * energy->width;
     energy->width = 0.0;
     energy->n_collected = 0;
-    memset(energy->collected, 0, sizeof energy->collected);
-    energy->stride = bounded > 1 ? bounded : 1;
     energy->next = (int64_t)step->number + energy->stride;
 }
 
@@ -214,6 +245,8 @@ mor_status mor_soil_list_energy(mor_context *context, mor_soil *soil, mor_state_
     }
     MOR_TRY(context, mor_state_add(context, list, own, "integral", MOR_STATE_DOUBLE, PARTS, energy->integral));
     MOR_TRY(context, mor_state_add(context, list, own, "power", MOR_STATE_DOUBLE, PARTS, energy->power));
+    MOR_TRY(context, mor_state_add(context, list, own, "previous", MOR_STATE_DOUBLE, PARTS, energy->previous));
+    MOR_TRY(context, mor_state_add(context, list, own, "reach", MOR_STATE_DOUBLE, 1, &energy->reach));
     MOR_TRY(context, mor_state_add(context, list, own, "span", MOR_STATE_DOUBLE, 1, &energy->span));
     MOR_TRY(context, mor_state_add(context, list, own, "turnover", MOR_STATE_DOUBLE, 1, &energy->turnover));
     MOR_TRY(context, mor_state_add(context, list, own, "collected", MOR_STATE_DOUBLE, PARTS, energy->collected));

@@ -16,7 +16,7 @@
  *  straight lines between the samples.
  *  Theory: docs/theory/energy.md, whose equations are cited as (E...). */
 
-enum { MOR_SOIL_ENERGY_INTERVAL = 16 /* most steps from one sample to the next; a power of two */ };
+enum { MOR_SOIL_ENERGY_INTERVAL = 32 /* most steps from one sample to the next; a power of two */ };
 
 /** What takes kinetic, potential and elastic energy from the soil; negative: adds energy. */
 typedef enum mor_soil_energy_part {
@@ -42,6 +42,8 @@ struct mor_soil;
 typedef struct mor_soil_energy {
     double integral[MOR_SOIL_ENERGY_PARTS];  /* of each part up to the last sample, J (J/m) */
     double power[MOR_SOIL_ENERGY_PARTS];     /* of each part in the last sample, W (W/m) */
+    double previous[MOR_SOIL_ENERGY_PARTS];  /* of each part in the sample before, W (W/m) */
+    double reach;                            /* time from that sample to the last one, s; 0: there are not yet two */
     double span;                             /* time since the last sample, s */
     double turnover;                         /* of sizes of powers, integral up to the last sample, J (J/m) */
     double collected[MOR_SOIL_ENERGY_PARTS]; /* sums over the steps of the present sample so far, W (W/m) */

@@ -33,9 +33,10 @@ enum { XX, XY, XZ, YX, YY, YZ, ZX, ZY, ZZ, TENSOR };
 /* What a chunk of targets is to every part of the forces, and of what kind the stresses are that are asked for. */
 typedef struct audit_chunk {
     const mor_pair_audit_job *job;
-    const int32_t *near; /* targets */
-    int n;               /* of them, 1 */
-    geometries *found;
+    const int32_t *near;  /* targets */
+    int n;                /* of them, 1 */
+    geometries *found;    /* of the present part of the cluster */
+    const double *stress; /* shape [n, TENSOR], Pa; as find_tensor, NULL: not asked for */
 } audit_chunk;
 
 INLINE void start_part(audit_part *part, const mor_pair_audit_job *job, int64_t first, const audit_form form)
@@ -201,8 +202,7 @@ INLINE void add_stress(audit_part *part, const audit_chunk *it, const audit_form
     }
     const vec *u = part->middle;
     for (int q = 0; q < it->n; ++q) {
-        double t[TENSOR];
-        find_tensor(it->job, it->near[q], t);
+        const double *t = it->stress + (ptrdiff_t)TENSOR * q;
         vec r[3];
         separate(r, &part->frame, target_of(it->job->arrays, it->near[q]), form.dimension);
         vec work[3];
@@ -280,30 +280,45 @@ INLINE void finish_part(const audit_part *part, const mor_pair_audit_job *job)
     }
 }
 
+INLINE void audit_chunk_of(audit_part *part, const audit_chunk *it, const audit_form form)
+{
+    const mor_pair_constants *c = it->job->constants;
+    find_chunk(it, part, form);
+    add_riemann(part, it, form);
+    if (c->has_hourglass) {
+        add_hourglass(part, it, form);
+    }
+    if (it->stress != NULL) {
+        add_stress(part, it, form);
+    }
+    if (c->has_artificial_stress) {
+        add_artificial(part, it, form);
+    }
+}
+
 INLINE void audit_cluster(const mor_pair_audit_job *job, int64_t cluster, const audit_form form)
 {
-    const mor_pair_constants *c = job->constants;
     const int32_t *near = mor_relation_near(job->arrays->inner, cluster);
     const int32_t count = job->arrays->inner->near_counts[cluster];
+    const bool has_stress = job->has_stress || job->constants->has_spin;
+    audit_part parts[PARTS];
+    geometries found;
+    double stress[CHUNK * TENSOR];
     for (int k = 0; k < PARTS; ++k) {
-        geometries found;
-        audit_part part;
-        start_part(&part, job, cluster * MOR_CLUSTER + k * LANES, form);
-        for (int32_t q = 0; q < count; q += CHUNK) {
-            const audit_chunk it = {job, near + q, count - q < CHUNK ? count - q : CHUNK, &found};
-            find_chunk(&it, &part, form);
-            add_riemann(&part, &it, form);
-            if (c->has_hourglass) {
-                add_hourglass(&part, &it, form);
-            }
-            if (c->has_spin || job->has_stress) {
-                add_stress(&part, &it, form);
-            }
-            if (c->has_artificial_stress) {
-                add_artificial(&part, &it, form);
-            }
+        start_part(parts + k, job, cluster * MOR_CLUSTER + k * LANES, form);
+    }
+    for (int32_t start = 0; start < count; start += CHUNK) {
+        const int n = count - start < CHUNK ? count - start : CHUNK;
+        for (int q = 0; q < n && has_stress; ++q) {
+            find_tensor(job, near[start + q], stress + (ptrdiff_t)TENSOR * q);
         }
-        finish_part(&part, job);
+        const audit_chunk it = {job, near + start, n, &found, has_stress ? stress : NULL};
+        for (int k = 0; k < PARTS; ++k) {
+            audit_chunk_of(parts + k, &it, form);
+        }
+    }
+    for (int k = 0; k < PARTS; ++k) {
+        finish_part(parts + k, job);
     }
 }
 
