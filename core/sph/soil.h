@@ -80,7 +80,7 @@ typedef struct mor_soil {
     double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; or NULL; with moments,
                              * as the next, of clusters at walls only */
     double *continued;      /* shape [n_particles, 6]; what boundaries continue of them along themselves, 1; or NULL */
-    int8_t *at_wall;        /* shape [clusters]; 1 where the lists hold a boundary's points, else 0 */
+    int8_t *at_wall;        /* shape [clusters]; patches of boundaries whose points the lists hold, at most 2; 1 */
     double *extra;          /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
     double *field_records;  /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
     double *diffusion;      /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */

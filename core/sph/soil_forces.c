@@ -68,7 +68,7 @@ static void use_normals(mor_context *context, mor_soil *soil)
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
             mor_soil_contact_project(context, mor_soil_contact_at(soil, k), n,
-                                     soil->settings.scheme.coulomb_tension == 0, soil->corners);
+                                     soil->settings.scheme.coulomb_tension == 0, soil->at_wall, soil->corners);
         }
     }
     mor_soil_contact_solve_corners(context, n, soil->at_wall, soil->sleep.states, soil->corners);

@@ -105,14 +105,16 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
     }
 }
 
-/* Which clusters list points of boundaries. */
+/* How many patches of boundaries clusters list. */
 static void find_clusters_at_walls(mor_soil *soil)
 {
     memset(soil->at_wall, 0, (size_t)soil->tree.n_clusters);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        const mor_relation *relation = &mor_soil_contact_at(soil, k)->relation;
-        for (int64_t place = 0; place < relation->n_occupied; ++place) {
-            soil->at_wall[relation->occupied[place]] = 1;
+        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        for (int64_t place = 0; place < contact->relation.n_occupied; ++place) {
+            const int64_t cluster = contact->relation.occupied[place];
+            const int64_t n = soil->at_wall[cluster] + contact->first_slot[place + 1] - contact->first_slot[place];
+            soil->at_wall[cluster] = n < 2 ? (int8_t)n : 2;
         }
     }
 }

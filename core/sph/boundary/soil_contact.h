@@ -92,6 +92,7 @@ typedef struct mor_contact_corner {
     double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain); then what projects on
                       * the directions in which several faces bear, 1; zero where one does */
     bool sees_any;   /* the two are current */
+    bool is_solved;  /* they are those at last */
     bool is_limited; /* friction limits all that acts along some face, and each keeps the force along its own normals */
 } mor_contact_corner;
 
@@ -236,9 +237,11 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
  *                              in given for mor_soil_contact_share_forces
  *  @param n_particles [in]      number of soil particles
  *  @param coulomb_pulls [in]    boundaries with Coulomb friction hold soil under tension
+ *  @param at_wall     [in]      shape [clusters]; patches of all boundaries that are listed, at most 2: where it is one
+ *                              corners are solved at once; NULL: not known
  *  @param corners     [in,out]  shape [n_particles]; added to, sees_any false at first */
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
-                              mor_contact_corner *corners);
+                              const int8_t *at_wall, mor_contact_corner *corners);
 
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
  *  @param n_particles [in]  number of soil particles

@@ -92,6 +92,28 @@ static void find_bearing(const double *faces, double trace, bearing *b)
     }
 }
 
+/* What is left of the faces seen: one direction, or several. */
+typedef struct directions {
+    bool is_one;      /* faces count as one */
+    bool is_plane;    /* they are one, but for rounding */
+    double normal[3]; /* of that one */
+    double value;     /* its principal value; not of a plane */
+    bearing several;  /* otherwise */
+} directions;
+
+static void find_directions(const double *faces, double trace, directions *d)
+{
+    d->is_one = is_flat(faces, trace, ALIKE);
+    d->is_plane = is_flat(faces, trace, FLAT);
+    if (d->is_plane) {
+        find_normal(faces, d->normal);
+    } else if (d->is_one) {
+        d->value = find_one_normal(faces, trace, d->normal);
+    } else {
+        find_bearing(faces, trace, &d->several);
+    }
+}
+
 /* Part of a vector in the directions in which faces bear, its components divided by the principal values if asked. */
 static void filter(const bearing *b, bool is_divided, double *vector)
 {
@@ -107,11 +129,40 @@ static void filter(const bearing *b, bool is_divided, double *vector)
     memcpy(vector, kept, sizeof kept);
 }
 
+/* What the rest of several faces weighs along each: the least that sums up to it, y with F y = P(F) rest. */
+static void solve_corner(const directions *d, mor_contact_corner *corner)
+{
+    corner->is_solved = true;
+    if (d->is_plane) {
+        memset(corner->rest, 0, sizeof corner->rest);
+        memset(corner->faces, 0, sizeof corner->faces);
+    } else if (d->is_one) {
+        /* F and P(F) have one direction. */
+        const double part = mor_vector_dot(corner->rest, d->normal) / d->value;
+        for (int a = 0; a < 3; ++a) {
+            corner->rest[a] = part * d->normal[a];
+            corner->faces[a] = d->normal[a] * d->normal[a];
+            corner->faces[3 + a] = d->normal[a] * d->normal[(a + 1) % 3];
+        }
+    } else {
+        const bearing *b = &d->several;
+        filter(b, true, corner->rest);
+        for (int a = 0; a < 6; ++a) {
+            const double *row = b->axes + 3 * (a % 3);
+            const double *column = b->axes + 3 * (a < 3 ? a : (a - 2) % 3);
+            corner->faces[a] = b->shares[0] * row[0] * column[0] + b->shares[1] * row[1] * column[1] +
+                               b->shares[2] * row[2] * column[2];
+        }
+    }
+}
+
 /* Keeps of the kernel gradient of a lane what its own faces bear, and notes the rest for corners. What is listed, but
- * out of reach, leaves no trace. */
-static void project_lane(const double *faces, bool limits, double *gradient, double *rest, mor_contact_corner *corner)
+ * out of reach, leaves no trace. Where no other faces are seen, the directions serve the corner, too. */
+static void project_lane(const double *faces, bool limits, bool is_alone, double *gradient, double *rest,
+                         mor_contact_corner *corner)
 {
     const double trace = mor_symmetric_trace(faces);
+    directions own;
     memset(rest, 0, 3 * sizeof *rest);
     if (!(trace > 0.0)) {
         return;
@@ -121,21 +172,14 @@ static void project_lane(const double *faces, bool limits, double *gradient, dou
     }
     corner->is_limited |= limits;
     double kept[3] = {gradient[0], gradient[1], gradient[2]};
-    if (is_flat(faces, trace, ALIKE)) {
-        double normal[3];
-        if (is_flat(faces, trace, FLAT)) {
-            find_normal(faces, normal);
-        } else {
-            find_one_normal(faces, trace, normal);
-        }
-        const double along = mor_vector_dot(gradient, normal);
+    find_directions(faces, trace, &own);
+    if (own.is_one) {
+        const double along = mor_vector_dot(gradient, own.normal);
         for (int a = 0; a < 3; ++a) {
-            kept[a] = along * normal[a];
+            kept[a] = along * own.normal[a];
         }
     } else {
-        bearing own;
-        find_bearing(faces, trace, &own);
-        filter(&own, false, kept);
+        filter(&own.several, false, kept);
     }
     for (int a = 0; a < 3; ++a) {
         rest[a] = gradient[a] - kept[a];
@@ -145,42 +189,8 @@ static void project_lane(const double *faces, bool limits, double *gradient, dou
     for (int a = 0; a < 6; ++a) {
         corner->faces[a] += faces[a];
     }
-}
-
-/* The same where faces count as one: F and P(F) have one direction. */
-static void solve_flat(mor_contact_corner *corner, double trace)
-{
-    double normal[3];
-    const double value = find_one_normal(corner->faces, trace, normal);
-    const double part = mor_vector_dot(corner->rest, normal) / value;
-    for (int a = 0; a < 3; ++a) {
-        corner->rest[a] = part * normal[a];
-        corner->faces[a] = normal[a] * normal[a];
-        corner->faces[3 + a] = normal[a] * normal[(a + 1) % 3];
-    }
-}
-
-/* What the rest of several faces weighs along each: the least that sums up to it, y with F y = P(F) rest. */
-static void solve_corner(mor_contact_corner *corner)
-{
-    const double trace = mor_symmetric_trace(corner->faces);
-    if (is_flat(corner->faces, trace, FLAT)) {
-        memset(corner->rest, 0, sizeof corner->rest);
-        memset(corner->faces, 0, sizeof corner->faces);
-        return;
-    }
-    if (is_flat(corner->faces, trace, ALIKE)) {
-        solve_flat(corner, trace);
-        return;
-    }
-    bearing b;
-    find_bearing(corner->faces, trace, &b);
-    filter(&b, true, corner->rest);
-    for (int a = 0; a < 6; ++a) {
-        const double *row = b.axes + 3 * (a % 3);
-        const double *column = b.axes + 3 * (a < 3 ? a : (a - 2) % 3);
-        corner->faces[a] =
-            b.shares[0] * row[0] * column[0] + b.shares[1] * row[1] * column[1] + b.shares[2] * row[2] * column[2];
+    if (is_alone) {
+        solve_corner(&own, corner);
     }
 }
 
@@ -190,12 +200,13 @@ static bool may_have_coulomb_friction(const mor_boundary_patch *patch)
 }
 
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
-                              mor_contact_corner *corners)
+                              const int8_t *at_wall, mor_contact_corner *corners)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         const bool is_held = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_HELD);
         for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+            const bool is_alone = at_wall != NULL && at_wall[contact->slots[slot].cluster] == 1;
             const bool limits = mor_soil_contact_limits_all(contact, coulomb_pulls) &&
                                 may_have_coulomb_friction(&contact->boundary->patches[contact->slots[slot].patch]);
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
@@ -204,8 +215,8 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                 if (contact->given != NULL) {
                     memcpy(contact->given + lane * MOR_SHARES + MOR_SHARE_DIRECTION, gradient, 3 * sizeof *gradient);
                 }
-                project_lane(contact->seen_faces + MOR_FACE_SUMS * lane, limits, gradient, contact->transfer + 3 * lane,
-                             corners + first + k);
+                project_lane(contact->seen_faces + MOR_FACE_SUMS * lane, limits, is_alone, gradient,
+                             contact->transfer + 3 * lane, corners + first + k);
             }
         }
     }
@@ -219,8 +230,10 @@ void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, c
         const bool is_at_wall = !is_held && (at_wall == NULL || at_wall[cluster]);
         const int64_t first = cluster * MOR_CLUSTER;
         for (int64_t i = first; is_at_wall && i < first + MOR_CLUSTER && i < n_particles; ++i) {
-            if (corners[i].sees_any) {
-                solve_corner(corners + i);
+            if (corners[i].sees_any && !corners[i].is_solved) {
+                directions d;
+                find_directions(corners[i].faces, mor_symmetric_trace(corners[i].faces), &d);
+                solve_corner(&d, corners + i);
             }
         }
     }
