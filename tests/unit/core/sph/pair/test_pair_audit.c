@@ -48,8 +48,8 @@ static void run_audit(const assembly *a, const char *name, bool has_stress, doub
     }
 }
 
-/* What the accelerations of the momentum loop take from each particle with the velocity in the middle of the kick, shape
- * [n], W (W/m). Returns the largest size of the parts of one. */
+/* What the accelerations of the momentum loop take from each particle with the velocity in the middle of the kick,
+ * shape [n], W (W/m). Returns the largest size of the parts of one. */
 static double find_loss(const assembly *a, const mor_pair_table *table, double *loss)
 {
     double velocity[3 * ASSEMBLY_MAX];
