@@ -71,8 +71,8 @@ static bool has_audit(const void *owner)
 /* What soil that is not released keeps, beside its state. */
 #define STANDING                                                                                                       \
     (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
-     BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(QUIET) |           \
-     BIT(QUIET_PLACE) | BIT(QUIET_SPAN))
+     BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |      \
+     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN))
 
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
@@ -93,7 +93,7 @@ static const mor_stage soil_stages[] = {
     {"wall sums", mor_soil_sum_walls, SHARED(RECORDS) | SHARED(LISTS) | SHARED(BOUNDARIES), SHARED(WALL_SUMS), 0,
      "kernel sums over walls and rocks in reach", NULL},
     {"density", mor_soil_reinitialize_density, SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(MASS), 0,
-     BIT(DENSITY) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
+     BIT(DENSITY) | BIT(SEPARATION) | SHARED(RECORDS), "density by summation at an interval", mor_soil_has_density_sums},
     {"artificial stress", mor_soil_find_artificial_stress, BIT(STRESS) | BIT(FLOW), BIT(ARTIFICIAL_STRESS), 0,
      "against tensile instability, where soil flows with transient stress diffusion, when switched on",
      has_artificial_stress},
@@ -142,7 +142,8 @@ static const mor_stage soil_stages[] = {
     {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS),
-     0, BIT(STRESS) | SHARED(STATE), "stress and state by the material", NULL},
+     0, BIT(STRESS) | BIT(SEPARATION) | SHARED(STATE),
+     "stress and state by the material, where soil has not come apart", NULL},
     {"memory", mor_soil_remember,
      BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | SHARED(MOMENTS) |
          SHARED(WALL_SUMS) | SHARED(LISTS),
@@ -164,11 +165,11 @@ static const mor_stage soil_stages[] = {
      SHARED(ORDER), "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
-static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) |
-                                        BIT(POSITION) | BIT(VELOCITY) | BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) |
-                                        BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) |
-                                        BIT(SPIN_STRESS) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
-                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+static const uint64_t evolving_fields =
+    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) | BIT(POSITION) | BIT(VELOCITY) |
+    BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) |
+    BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
+    SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */
@@ -325,6 +326,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     fields &= settings->scheme.stress_diffusion > 0.0 && settings->scheme.stress_diffusion_limiter == 2
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
+    fields &= settings->scheme.separation_memory ? ~(uint64_t)0 : ~BIT(SEPARATION);
     fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~(BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN));
     fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
                                                                                                : ~BIT(CROSSINGS);

@@ -7,15 +7,15 @@
 #include "core/material/checked.h"
 #include "core/sph/boundary/soil_wall.h"
 #include "core/sph/lanes/artificial_stress.h"
+#include "core/sph/stress/stress_update.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-/* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once.
- * HALVINGS: how often a batch may ask for a smaller step before the run stops. */
-enum { CLUSTERS = MOR_SLEEP_CLUSTERS, BATCH = MOR_SOIL_BATCH, HALVINGS = 8 };
+/* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once. */
+enum { CLUSTERS = MOR_SLEEP_CLUSTERS, BATCH = MOR_SOIL_BATCH };
 
 /* What a loop would write of the particles of clusters [first, last) is zero. */
 static void clear_outputs(const mor_pair_arrays *arrays, int64_t first, int64_t last)
@@ -234,173 +234,36 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     return MOR_OK;
 }
 
-/* Start values of a batch, kept so that it can be done again with smaller steps. */
-typedef struct batch_start {
-    double stress[BATCH * 6];
-    double state[MOR_MATERIAL_STATES_MAX][BATCH * 9];
-} batch_start;
-
-/* What the update reads and writes. */
-typedef struct update {
-    const mor_soil *soil;
-    double length; /* of the step, s */
-    const double *density, *velocity_gradient, *diffusion;
-    double *stress;
-    double *state[MOR_MATERIAL_STATES_MAX];
+/* What the workers of the stress update share. */
+typedef struct stress_job {
+    mor_stress_update update;
     const int8_t *asleep; /* shape [blocks]; states of sleep; NULL: all are awake */
-} update;
-
-/* Components of a state variable. */
-static int64_t state_width(const mor_soil *soil, int k)
-{
-    return soil->set.fields[soil->state_fields[k]].n_components;
-}
-
-/* Copies the evolving values of a batch into the store or back. */
-static void copy_start(const update *it, int64_t first, int64_t n, batch_start *start, bool is_restore)
-{
-    for (int k = -1; k < it->soil->material->n_state; ++k) {
-        const int64_t n_components = k < 0 ? 6 : state_width(it->soil, k);
-        double *data = (k < 0 ? it->stress : it->state[k]) + first * n_components;
-        double *kept = k < 0 ? start->stress : start->state[k];
-        memcpy(is_restore ? data : kept, is_restore ? kept : data, (size_t)(n * n_components) * sizeof *data);
-    }
-}
-
-/* A call of the material that may crash. */
-typedef struct guarded_call {
-    const mor_material_instance *material;
-    const mor_batch *batch;
-    mor_status status;
-} guarded_call;
-
-static void call_material(void *job)
-{
-    guarded_call *it = job;
-    it->status = it->material->operations.advance_rate(it->material, it->batch);
-}
-
-static mor_status advance_guarded(const mor_soil *soil, const mor_batch *batch)
-{
-    guarded_call it = {.material = soil->material, .batch = batch};
-    return mor_guard_run(soil->settings.guard, call_material, &it) == 0 ? it.status : MOR_ERROR_CRASH;
-}
-
-/* Which update of a batch failed. */
-typedef struct failed_update {
-    int64_t particle; /* in the batch */
-    bool is_silent;   /* the law returned ok, but left numbers that are not finite */
-} failed_update;
-
-/* First particle of a batch that a law left with numbers that are not finite, n when there is none. A product with zero
- * is zero unless a factor is not finite. */
-static int64_t find_nonfinite(const mor_soil *soil, const mor_batch *batch)
-{
-    double sums[BATCH] = {0.0};
-    for (int k = -1; k < soil->material->n_state; ++k) {
-        const double *values = k < 0 ? batch->stress_out : batch->state_out[k];
-        const int64_t width = k < 0 ? 6 : state_width(soil, k);
-        for (int64_t i = 0; i < batch->n; ++i) {
-            for (int64_t a = 0; a < width; ++a) {
-                sums[i] += 0.0 * values[width * i + a];
-            }
-        }
-    }
-    int64_t i = 0;
-    while (i < batch->n && sums[i] == 0.0) {
-        ++i;
-    }
-    return i;
-}
-
-/* Updates a batch in place over n_steps equal steps. */
-static mor_status advance_equal_steps(const update *it, int64_t first, int64_t n, int n_steps, failed_update *failed)
-{
-    const mor_soil *soil = it->soil;
-    double *state[MOR_MATERIAL_STATES_MAX];
-    const double *state_in[MOR_MATERIAL_STATES_MAX];
-    for (int k = 0; k < soil->material->n_state; ++k) {
-        state[k] = it->state[k] + first * state_width(soil, k);
-        state_in[k] = state[k];
-    }
-    const mor_batch batch = {.n = n,
-                             .time_step = it->length / n_steps,
-                             .density = it->density + first,
-                             .velocity_gradient = it->velocity_gradient + 9 * first,
-                             .extra_stress_rate = it->diffusion != NULL ? it->diffusion + 6 * first : NULL,
-                             .stress_in = it->stress + 6 * first,
-                             .stress_out = it->stress + 6 * first,
-                             .state_in = state_in,
-                             .state_out = state,
-                             .failed = &failed->particle};
-    mor_status status = MOR_OK;
-    failed->is_silent = false;
-    for (int k = 0; k < n_steps && status == MOR_OK; ++k) {
-        status = soil->settings.guard != NULL ? advance_guarded(soil, &batch)
-                                              : soil->material->operations.advance_rate(soil->material, &batch);
-    }
-    const int64_t nonfinite = status == MOR_OK ? find_nonfinite(soil, &batch) : n;
-    if (nonfinite < n) {
-        *failed = (failed_update){.particle = nonfinite, .is_silent = true};
-        status = MOR_ERROR_NUMERIC;
-    }
-    return status;
-}
-
-/* A material that asks for a smaller step gets its batch divided in time; the velocity gradient is constant over the
- * step, so nothing but the law's own integration changes. On failure the start values are back in place. */
-static mor_status advance_batch(const update *it, int64_t first, int64_t last, failed_update *failed)
-{
-    batch_start start;
-    copy_start(it, first, last - first, &start, false);
-    mor_status status = MOR_RETRY_SMALLER_STEP;
-    for (int halving = 0; halving <= HALVINGS && status > MOR_OK; ++halving) {
-        status = advance_equal_steps(it, first, last - first, 1 << halving, failed);
-        if (status != MOR_OK) {
-            copy_start(it, first, last - first, &start, true);
-        }
-    }
-    return status;
-}
+} stress_job;
 
 static mor_status advance_block(void *job, int64_t first, int64_t last)
 {
-    const update *it = job;
-    failed_update failed = {0};
-    return mor_sleep_is(it->asleep, first / MOR_CLUSTER, MOR_SLEEP_ASLEEP) ? MOR_OK
-                                                                           : advance_batch(it, first, last, &failed);
-}
-
-/* A crash tells no particle, so that they are tried one by one; results do not depend on the others in a batch. */
-static mor_status find_crash(const update *it, int64_t first, int64_t n, failed_update *failed)
-{
-    for (int64_t i = 0; i < n; ++i) {
-        const mor_status status = advance_batch(it, first + i, first + i + 1, failed);
-        if (status != MOR_OK) {
-            failed->particle = i;
-            return status;
-        }
-    }
-    return MOR_ERROR_CRASH;
+    const stress_job *it = job;
+    mor_stress_failed failed = {0};
+    return mor_sleep_is(it->asleep, first / MOR_CLUSTER, MOR_SLEEP_ASLEEP)
+               ? MOR_OK
+               : mor_stress_advance(&it->update, first, last, &failed);
 }
 
 /* Keeps what the failed update started from: the failed batch has its start values back. */
-static void keep_failure(const update *it, const mor_step *step, int64_t i, mor_soil_failure *failure)
+static void keep_failure(const mor_soil *soil, const mor_stress_update *it, const mor_step *step, int64_t i,
+                         mor_soil_failure *failure)
 {
     double *state = failure->state;
     *failure = (mor_soil_failure){.is_known = true,
-                                  .particle = it->soil->set.id[i],
+                                  .particle = soil->set.id[i],
                                   .step = step->number,
                                   .time = step->time + step->length,
                                   .time_step = it->length,
                                   .density = it->density[i]};
     memcpy(failure->stress, it->stress + 6 * i, sizeof failure->stress);
-    memcpy(failure->velocity_gradient, it->velocity_gradient + 9 * i, sizeof failure->velocity_gradient);
-    if (it->diffusion != NULL) {
-        memcpy(failure->extra_stress_rate, it->diffusion + 6 * i, sizeof failure->extra_stress_rate);
-    }
-    for (int k = 0; k < it->soil->material->n_state; ++k) {
-        const int64_t n = state_width(it->soil, k);
+    mor_stress_find_seen(it, i, failure->velocity_gradient, failure->extra_stress_rate);
+    for (int k = 0; k < it->material->n_state; ++k) {
+        const int64_t n = it->widths[k];
         memcpy(state, it->state[k] + n * i, (size_t)n * sizeof *state);
         state += n;
     }
@@ -412,7 +275,7 @@ static void describe_reason(mor_status status, bool is_silent, char *reason)
 {
     if (status > MOR_OK) {
         snprintf(reason, REASON_BYTES, "%s, after %d halvings of the step; a smaller 'courant' may help",
-                 mor_status_text(status), HALVINGS);
+                 mor_status_text(status), MOR_STRESS_HALVINGS);
     } else if (is_silent) {
         snprintf(reason, REASON_BYTES,
                  "the law reported success, but left numbers that are not finite; correct the law");
@@ -422,22 +285,21 @@ static void describe_reason(mor_status status, bool is_silent, char *reason)
 }
 
 /* Does the failed batch again to learn which particle it was. */
-static mor_status report_stress(mor_context *context, const update *it, const mor_view *view, const mor_step *step,
-                                int64_t first, mor_soil_failure *failure)
+static mor_status report_stress(mor_context *context, const mor_soil *soil, const mor_stress_update *it,
+                                const mor_view *view, const mor_step *step, int64_t first, mor_soil_failure *failure)
 {
-    const mor_soil *soil = it->soil;
     const int64_t left = soil->set.n_particles - first;
-    failed_update failed = {0};
+    mor_stress_failed failed = {0};
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time + step->length));
     const int64_t n = left < BATCH ? left : BATCH;
-    mor_status status = advance_batch(it, first, first + n, &failed);
+    mor_status status = mor_stress_advance(it, first, first + n, &failed);
     if (status == MOR_ERROR_CRASH && soil->settings.guard != NULL) {
-        status = find_crash(it, first, n, &failed);
+        status = mor_stress_find_crash(it, first, n, &failed);
     }
     const int64_t i = first + failed.particle;
     const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const double *s = mor_view_quote(view, MOR_FIELD_STRESS, i);
-    keep_failure(it, step, i, failure);
+    keep_failure(soil, it, step, i, failure);
     char reason[REASON_BYTES];
     describe_reason(status, failed.is_silent, reason);
     const mor_status told = MOR_FAIL(
@@ -452,15 +314,25 @@ static mor_status report_stress(mor_context *context, const update *it, const mo
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    update job = {.soil = soil,
-                  .length = step->length,
-                  .density = mor_view_read(view, MOR_FIELD_DENSITY),
-                  .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
-                  .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
-                  .stress = mor_view_write(view, MOR_FIELD_STRESS),
-                  .asleep = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
-    mor_view_write_state(view, soil->state_fields, soil->material->n_state, job.state);
+    stress_job job = {.asleep = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
+    job.update = (mor_stress_update){.material = soil->material,
+                                     .guard = soil->settings.guard,
+                                     .length = step->length,
+                                     .of_soil = soil->of_soil,
+                                     .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                                     .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
+                                     .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
+                                     .stress = mor_view_write(view, MOR_FIELD_STRESS),
+                                     .separation = mor_view_write(view, MOR_FIELD_SEPARATION)};
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        const mor_soil_kind *kind = &soil->kinds[k];
+        job.update.stiffness[k] = kind->reference_density * kind->sound_speed * kind->sound_speed;
+    }
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        job.update.widths[k] = soil->set.fields[soil->state_fields[k]].n_components;
+    }
+    mor_view_write_state(view, soil->state_fields, soil->material->n_state, job.update.state);
     const mor_blocks blocks = mor_soil_blocks(soil, BATCH, 4);
     const int64_t failed = mor_reduce_status(&blocks, context->n_threads, advance_block, &job, soil->room.statuses);
-    return failed < 0 ? MOR_OK : report_stress(context, &job, view, step, failed * BATCH, &soil->failure);
+    return failed < 0 ? MOR_OK : report_stress(context, soil, &job.update, view, step, failed * BATCH, &soil->failure);
 }

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/particle/kernel.h"
 #include "core/sph/soil.h"
+#include "core/sph/stress/stress_update.h"
 
 /** @file
  *  What the files of the soil solver share among themselves. Not for others. */
@@ -83,7 +84,7 @@ static inline double mor_soil_reach(const mor_soil *soil)
 }
 
 /** Sizes of reductions over particles: particles handed to a material at once, most values of a block. */
-enum { MOR_SOIL_BATCH = 128, MOR_SOIL_BLOCK_VALUES = 4 };
+enum { MOR_SOIL_BATCH = MOR_STRESS_BATCH, MOR_SOIL_BLOCK_VALUES = 4 };
 
 /** Blocks of particles for reductions.
  *  @param block_items [in]  particles of a block, at least MOR_SOIL_BATCH

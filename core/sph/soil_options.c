@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
+#include <math.h>
 #include <string.h>
 
 /* CLUSTERS: clusters a thread takes at once. */
@@ -84,6 +85,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
     const double *mass = mor_view_read(view, MOR_FIELD_MASS);
     double *density = mor_view_write(view, MOR_FIELD_DENSITY);
     double *records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    double *separation = mor_view_write(view, MOR_FIELD_SEPARATION);
     double *sum = soil->density_sums;
     const int64_t n = soil->set.n_particles;
     for (int64_t i = 0; i < n; ++i) {
@@ -107,7 +109,13 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
         }
         const double summed = sum[i] / soil->lattice_sum;
         const double missing = density[i] - summed;
-        density[i] = missing > 0.0 ? summed + missing * reference / density[i] : summed;
+        double around = reference; /* beyond a free surface: as dense as here */
+        if (separation != NULL && separation[i] > 0.0) {
+            /* A sum counts no gap: what is as dense as at the start has closed. */
+            separation[i] = summed < reference ? separation[i] : 0.0;
+            around *= exp(-separation[i]);
+        }
+        density[i] = missing > 0.0 ? summed + missing * around / density[i] : summed;
         double *record = records + i * MOR_RECORD_SIZE;
         record[MOR_RECORD_VOLUME] = mass[i] / density[i];
         record[MOR_RECORD_IMPEDANCE] = density[i] * mor_soil_kind_of(soil, i)->sound_speed;

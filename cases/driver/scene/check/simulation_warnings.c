@@ -24,14 +24,16 @@ enum { ROWS_USUAL = 200, SNAPSHOTS_USUAL = 20 };
 static void warn_of_gas(mor_context *context, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
-    for (int k = 0; k < c->n_soils && c->numerics.density_reinitialization > 0; ++k) {
+    const bool is_raised = c->numerics.density_reinitialization > 0 && !c->numerics.separation_memory;
+    for (int k = 0; k < c->n_soils && is_raised; ++k) {
         const mor_case_soil *it = &c->soils[k];
         if (mor_params_role_value(s->laws[k]->parameters, it->parameters, MOR_ROLE_GAS_DENSITY_RATIO, 0.0) > 0.0) {
-            mor_context_log(context, MOR_LOG_WARNING,
-                            "soil '%s' has no stress where it is loose, but density by summation brings the density of "
-                            "loose soil back to the initial one, so that it bears stress again: set "
-                            "numerics.density_reinitialization = 0 where soil comes apart",
-                            it->name);
+            mor_context_log(
+                context, MOR_LOG_WARNING,
+                "soil '%s' has no stress where it is loose, but density by summation brings the density of "
+                "loose soil back to the initial one, so that it bears stress again: set "
+                "numerics.separation_memory = true, or density_reinitialization = 0, where soil comes apart",
+                it->name);
         }
     }
 }

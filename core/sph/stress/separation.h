@@ -1,0 +1,81 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_STRESS_SEPARATION_H
+#define MOR_CORE_SPH_STRESS_SEPARATION_H
+
+#include <math.h>
+#include <stdbool.h>
+
+/** @file
+ *  Soil that has come apart. A law in rate form builds up stress from any state, however far its grains are from one
+ *  another. By how much soil has opened without a stress to show for it is kept here, as the volumetric strain of
+ *  separation, and closes again before the law sees compression. docs/theory/separation.md. */
+
+/** MOR_SEPARATION_ZERO: stresses are zero up to this part of the stiffness rho_0 c_0^2, 1: far above the rounding of a
+ *  return to the apex, far below any stress of interest. MOR_SEPARATION_ELASTIC: least rise of the mean stress of an
+ *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more. */
+#define MOR_SEPARATION_ZERO 1.0e-13
+#define MOR_SEPARATION_ELASTIC 0.25
+
+/** What a law sees of the strain of a step. */
+typedef struct mor_separation_part {
+    double share; /* of all of it, 0 to 1, 1 */
+    double taken; /* volumetric strain to be added to that share: what closes without stress, >= 0, 1 */
+    double left;  /* strain of separation after the step, as far as nothing opens, >= 0, 1 */
+} mor_separation_part;
+
+/** Returns whether a stress, shape [6], unit Pa, is zero up to a bound, unit Pa. */
+static inline bool mor_separation_is_free(const double *stress, double zero)
+{
+    bool is_free = true;
+    for (int a = 0; a < 6; ++a) {
+        is_free = is_free && fabs(stress[a]) <= zero;
+    }
+    return is_free;
+}
+
+/** Mean of a stress, shape [6], tension positive, Pa. */
+static inline double mor_separation_mean(const double *stress)
+{
+    return (stress[0] + stress[1] + stress[2]) / 3.0;
+}
+
+/** Finds what the law sees of a step of soil that is open. Without any stress: nothing, until it has closed (A1). With
+ *  some, of soil with cohesion: all but the compression beyond the one that takes its tension (A2).
+ *  @param separation [in]  strain of separation before the step, > 0, 1
+ *  @param strain     [in]  volumetric strain of the step, 1
+ *  @param stress     [in]  shape [6]; before the step, Pa
+ *  @param stiffness  [in]  rho_0 c_0^2, Pa */
+static inline mor_separation_part mor_separation_find(double separation, double strain, const double *stress,
+                                                      double stiffness)
+{
+    const double after = separation + strain;
+    if (mor_separation_is_free(stress, MOR_SEPARATION_ZERO * stiffness)) {
+        return after > 0.0 ? (mor_separation_part){.share = 0.0, .left = after}
+                           : (mor_separation_part){.share = after / strain};
+    }
+    const double pressed = -strain - mor_separation_mean(stress) / stiffness;
+    const double most = fmin(separation, -strain);
+    const double taken = fmax(fmin(pressed, most), 0.0);
+    return (mor_separation_part){.share = 1.0, .taken = taken, .left = separation - taken};
+}
+
+/** Returns by how much soil has opened in a step that the law saw, >= 0, 1: what of an expansion has not become tension
+ *  (A3). None where there is pressure, nor where the expansion is elastic or begins to tear.
+ *  @param strain    [in]  volumetric strain of the step, 1
+ *  @param before    [in]  shape [6]; stress before the step, Pa
+ *  @param stress    [in]  shape [6]; after it, Pa
+ *  @param diffused  [in]  mean stress that came by diffusion, which no strain goes with, Pa
+ *  @param stiffness [in]  rho_0 c_0^2, Pa */
+static inline double mor_separation_open(double strain, const double *before, const double *stress, double diffused,
+                                         double stiffness)
+{
+    const double zero = MOR_SEPARATION_ZERO * stiffness;
+    const double mean = mor_separation_mean(stress);
+    const double rise = (mean - mor_separation_mean(before)) / stiffness;
+    const bool is_torn = mean >= -zero && rise - diffused / stiffness < MOR_SEPARATION_ELASTIC * strain;
+    const bool is_open = strain > 0.0 && (is_torn || mor_separation_is_free(stress, zero));
+    return is_open ? fmin(fmax(strain - rise, 0.0), strain) : 0.0;
+}
+
+#endif
