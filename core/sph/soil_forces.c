@@ -51,6 +51,18 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
     }
 }
 
+/* Runs the loop for the precision asked for: by dimension - 2 in double and in mixed precision. */
+static mor_status run_in_precision(mor_context *context, mor_soil *soil, mor_pair_arrays *arrays,
+                                   const mor_pair_loop *in_double, const mor_pair_loop *mixed)
+{
+    const bool is_mixed = soil->settings.scheme.precision == 1;
+    if (is_mixed) {
+        MOR_TRY(context, mor_pair_singles_pack(context, &soil->constants, &soil->images, &soil->singles, arrays));
+    }
+    mor_soil_run_pairs(context, &soil->constants, arrays, (is_mixed ? mixed : in_double)[soil->settings.dimension - 2]);
+    return MOR_OK;
+}
+
 /* Directs the kernel gradients over walls by the normals of their faces. */
 static void use_normals(mor_context *context, mor_soil *soil)
 {
@@ -164,7 +176,7 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     set_diffusion(context, soil, step, arrays.stress_diffusion);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
+    MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->momentum, soil->table->mixed_momentum));
     mor_hold_stop(&soil->hold, arrays.acceleration, 3);
     mor_hold_stop(&soil->hold, arrays.stress_diffusion, 6);
     mor_hold_stop(&soil->hold, arrays.hourglass_moment, 3);
@@ -208,7 +220,8 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
     arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
+    arrays.extra = NULL; /* is not read */
+    MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->gradient, soil->table->mixed_gradient));
     mor_hold_stop(&soil->hold, arrays.hourglass_rate, 3);
     return MOR_OK;
 }

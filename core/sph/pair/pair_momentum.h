@@ -42,6 +42,17 @@ typedef struct momentum_sums {
     vec lever[3];         /* sum k m r; with several soils */
 } momentum_sums;
 
+/** Powers of the unit of lengths in them, beside that of a volume, where the loop is in single precision. */
+static const signed char momentum_powers[] = {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1,
+                                              1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1};
+_Static_assert(sizeof momentum_powers == SUMS_OF(momentum_sums), "one power for each sum");
+
+/** Writes what the sums of the loop in single precision give, by the routine of the loop in double precision.
+ *  @param totals [in]  shape [SUMS_OF(momentum_sums), 8]; in the units of the loop */
+void MOR_ISA_NAME(mor_pair_finish_momentum)(const double *totals, const mor_pair_constants *c,
+                                            const mor_pair_arrays *arrays, int64_t cluster, momentum_form form);
+
+#if !defined(MOR_SINGLE)
 /** The constants of stress diffusion, lane by lane. */
 typedef struct diffusion {
     vec rate; /* m2/s */
@@ -165,5 +176,6 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
                          arrays->stress_diffusion + first * 6, n_lanes);
     }
 }
+#endif
 
 #endif
