@@ -135,11 +135,43 @@ INLINE void store_row(double *out, const int n, __m512d row)
 }
 #endif
 
+#if defined(MOR_SINGLE) && defined(__AVX__)
+/** Exchanges rows and columns, both shape [8, 8], any unit; columns that nobody reads cost nothing. */
+INLINE void transpose_singles(const __m256 *rows, __m256 *columns)
+{
+    for (int half = 0; half < 2; ++half) {
+        __m256 pairs[4]; /* rows k and k + 4 in the halves of a register */
+        for (int k = 0; k < 4; ++k) {
+            pairs[k] = half ? _mm256_permute2f128_ps(rows[k], rows[k + 4], 0x31)
+                            : _mm256_insertf128_ps(rows[k], _mm256_castps256_ps128(rows[k + 4]), 1);
+        }
+        const __m256 low01 = _mm256_unpacklo_ps(pairs[0], pairs[1]);
+        const __m256 low23 = _mm256_unpacklo_ps(pairs[2], pairs[3]);
+        const __m256 high01 = _mm256_unpackhi_ps(pairs[0], pairs[1]);
+        const __m256 high23 = _mm256_unpackhi_ps(pairs[2], pairs[3]);
+        columns[4 * half] = _mm256_shuffle_ps(low01, low23, 0x44);
+        columns[4 * half + 1] = _mm256_shuffle_ps(low01, low23, 0xee);
+        columns[4 * half + 2] = _mm256_shuffle_ps(high01, high23, 0x44);
+        columns[4 * half + 3] = _mm256_shuffle_ps(high01, high23, 0xee);
+    }
+}
+#endif
+
 /** Reads the first n components, at most 8, of consecutive records, shape [LANES, stride], any unit, into out,
  *  shape [n]. */
 INLINE void load_first(const real *records, int stride, const int n, vec *out)
 {
-#if defined(HAS_TRANSPOSE)
+#if defined(MOR_SINGLE) && defined(__AVX__)
+    __m256 rows[8];
+    __m256 columns[8];
+    for (int lane = 0; lane < 8; ++lane) {
+        rows[lane] = _mm256_loadu_ps(records + lane * stride);
+    }
+    transpose_singles(rows, columns);
+    for (int a = 0; a < n; ++a) {
+        out[a] = (vec)columns[a];
+    }
+#elif defined(HAS_TRANSPOSE)
     __m512d rows[8];
     __m512d columns[8];
     const double *base = as_base(records);

@@ -117,13 +117,16 @@ typedef struct mor_pair_constants {
     double shift_diameter;       /* of the sphere (disc) with a particle's volume, m */
 } mor_pair_constants;
 
+/* Singles from one strain rate to the next: half a cache line. */
+enum { MOR_PAIR_SINGLE_STRAIN = 8 };
+
 /** What the loops in single precision read of particles, packed by mor_pair_singles_pack; borrowed. Places are integers,
  *  see mor_pair_length_unit, volumes in mor_pair_volume_unit, strain rates in m/s per length unit. */
 typedef struct mor_pair_single_arrays {
     const float *records;           /* shape [n padded to 8, 16]; order of MOR_RECORD_... */
     const float *extra;             /* shape [n padded to 8, 16]; order and units of MOR_EXTRA_...; NULL without */
     const float *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
-    const float *strain_rate;       /* shape [n padded to 8, 6]; NULL: no reconstruction */
+    const float *strain_rate;       /* shape [n padded to 8, MOR_PAIR_SINGLE_STRAIN]; NULL: no reconstruction */
     const float *of_soil; /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
 } mor_pair_single_arrays;
 

@@ -190,15 +190,9 @@ INLINE void gradient_finish(gradient_sums *g, const mor_pair_constants *c, const
 void MOR_ISA_NAME(mor_pair_finish_gradient)(const double *totals, const mor_pair_constants *c,
                                             const mor_pair_arrays *arrays, int64_t cluster, gradient_form form)
 {
-    const double unit = mor_pair_length_unit(c->smoothing_length);
-    const double volume = mor_pair_volume_unit(c->smoothing_length, c->dimension);
-    double scales[SUMS_OF(gradient_sums)];
-    for (int k = 0; k < SUMS_OF(gradient_sums); ++k) {
-        scales[k] = volume * (gradient_powers[k] > 0 ? unit : 1.0) * (gradient_powers[k] > 1 ? unit : 1.0);
-    }
     for (int part = 0; part < PARTS; ++part) {
         gradient_sums sums;
-        take_totals(totals, scales, SUMS_OF(gradient_sums), part, (vec *)&sums);
+        take_totals(totals, gradient_powers, SUMS_OF(gradient_sums), c, part, (vec *)&sums);
         const int64_t first = cluster * MOR_CLUSTER + part * LANES;
         if (form.dimension == 2) {
             gradient_finish(&sums, c, arrays, first, (gradient_form){2, form.pressure, form.several, form.fits});
@@ -218,16 +212,32 @@ INLINE bool has_sum(const int k, const gradient_form form)
     return k == rate ? form.fits != 2 : form.fits;
 }
 
-/* Adds the sums of a chunk to those in double precision, and starts them anew. */
-INLINE void add_totals(double (*totals)[MOR_CLUSTER], gradient_sums *sums, int64_t lane, const gradient_form form)
+/* Adds the sums of a chunk to those in double precision. */
+INLINE void add_totals(double (*totals)[MOR_CLUSTER], const gradient_sums *sums, int64_t lane, const gradient_form form)
 {
-    typedef double wide_vec __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
-    vec *of_chunk = (vec *)sums;
+    typedef double unaligned __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
+    const vec *of_chunk = (const vec *)sums;
     for (int k = 0; k < SUMS_OF(gradient_sums); ++k) {
         if (has_sum(k, form)) {
-            *(wide_vec *)(totals[k] + lane) += __builtin_convertvector(of_chunk[k], wide_vec);
-            of_chunk[k] = broadcast(0.0);
+            *(unaligned *)(totals[k] + lane) += __builtin_convertvector(of_chunk[k], unaligned);
         }
+    }
+}
+
+/* Copies sums one by one, so that they stay in registers. */
+INLINE void copy_sums(gradient_sums *to, const gradient_sums *from, const gradient_form form)
+{
+    for (int a = 0; a < 9; ++a) {
+        to->moment[a] = from->moment[a];
+    }
+    to->rate = from->rate;
+    to->weight = form.fits ? from->weight : broadcast(0.0);
+    for (int a = 0; a < 3; ++a) {
+        to->jump[a] = form.fits ? from->jump[a] : broadcast(0.0);
+        to->way[a] = form.fits ? from->way[a] : broadcast(0.0);
+    }
+    for (int a = 0; a < 6; ++a) {
+        to->shape[a] = form.fits ? from->shape[a] : broadcast(0.0);
     }
 }
 #endif
@@ -286,7 +296,10 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
             add_gradient(&sums, &g, ring + q % RING, target_of(arrays, near[q]), &f, form);
         }
 #if defined(MOR_SINGLE)
-        add_totals(totals, &sums, first % MOR_CLUSTER, form);
+        gradient_sums of_chunk;
+        copy_sums(&of_chunk, &sums, form);
+        add_totals(totals, &of_chunk, first % MOR_CLUSTER, form);
+        memset(&sums, 0, sizeof sums);
 #endif
     }
 #if !defined(MOR_SINGLE)

@@ -77,12 +77,10 @@ INLINE frame frame_of(const mor_pair_constants *constants, const real *records, 
 #if defined(MOR_SINGLE)
     const double h = constants->smoothing_length / mor_pair_length_unit(constants->smoothing_length);
     frame f = {.half_inverse_h = (real)(0.5 / h), .tiny = (real)(h * h * 0x1p-46), .core2 = (real)(0.01 * h * h)};
+    vec at[3];
+    load_first(records, stride, 3, at);
     for (int a = 0; a < 3; ++a) {
-        bits at[LANES];
-        for (int lane = 0; lane < LANES; ++lane) {
-            memcpy(at + lane, records + lane * stride + a, sizeof *at);
-        }
-        memcpy(f.x + a, at, sizeof at);
+        f.x[a] = (mask)at[a];
     }
 #else
     const double h = constants->smoothing_length;
@@ -116,7 +114,14 @@ typedef struct geometry {
 /** That of a chunk, shape [CHUNK] each, units as above. Each number has an array of its own: those that a loop does not
  *  need take no room in the nearest cache. */
 typedef struct geometries {
-    vec distance[CHUNK], k[CHUNK], distance2[CHUNK];
+    vec distance[CHUNK], k[CHUNK];
+#if defined(MOR_SINGLE)
+    struct {
+        vec r[3], distance2;
+    } kept[CHUNK]; /* integers cost more to separate than these to read */
+#else
+    vec distance2[CHUNK];
+#endif
 } geometries;
 
 /** Returns places less one coordinate of a target: exact where they are within the support. */
@@ -159,15 +164,49 @@ INLINE pair pair_of(const frame *f, const real *target, const int dimension)
     return p;
 }
 
+/** Keeps the separation of target q of a chunk and its squared length, in single precision. */
+INLINE void keep_separation(geometries *g, int q, const vec *r, vec distance2, const int dimension)
+{
+#if defined(MOR_SINGLE)
+    for (int a = 0; a < dimension; ++a) {
+        g->kept[q].r[a] = r[a];
+    }
+    g->kept[q].distance2 = distance2;
+#else
+    (void)g, (void)q, (void)r, (void)distance2, (void)dimension;
+#endif
+}
+
+/** Finds that separation again, from a target, shape [3], or as it was kept. */
+INLINE void separation_at(vec *r, const geometries *g, int q, const frame *f, const real *target, const int dimension)
+{
+#if defined(MOR_SINGLE)
+    (void)f, (void)target;
+    for (int a = 0; a < 3; ++a) {
+        r[a] = a < dimension ? g->kept[q].r[a] : broadcast(0.0);
+    }
+#else
+    (void)g, (void)q;
+    separate(r, f, target, dimension);
+#endif
+}
+
 /** Finds the geometry of target q of a chunk, shape [MOR_RECORD_SIZE], units of MOR_RECORD_..., and the lanes of a
- *  frame; with_square: distance2, too. */
+ *  frame; with_square: distance2, too. In single precision the separation is kept already. */
 INLINE void find_geometry(geometries *g, int q, const real *target, const frame *f, const int dimension,
                           const int with_square)
 {
+#if defined(MOR_SINGLE)
+    (void)dimension, (void)with_square;
+    pair p;
+    p.distance = square_root(g->kept[q].distance2);
+    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
+#else
     const pair p = pair_of(f, target, dimension);
     if (with_square) {
         g->distance2[q] = p.distance2;
     }
+#endif
     g->distance[q] = p.distance;
     g->k[q] = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
 }
@@ -175,7 +214,12 @@ INLINE void find_geometry(geometries *g, int q, const real *target, const frame 
 /** Returns what was found of target q. */
 INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
 {
-    return (geometry){with_square ? g->distance2[q] : broadcast(0.0), g->distance[q], g->k[q]};
+#if defined(MOR_SINGLE)
+    const vec *distance2 = &g->kept[q].distance2;
+#else
+    const vec *distance2 = &g->distance2[q];
+#endif
+    return (geometry){with_square ? *distance2 : broadcast(0.0), g->distance[q], g->k[q]};
 }
 
 /* What the loops read, in doubles or in singles. */
@@ -196,6 +240,15 @@ INLINE const real *target_of(const mor_pair_arrays *arrays, int32_t j)
 INLINE const real *extra_of(const mor_pair_arrays *arrays, int32_t j)
 {
     return READ(extra) + (int64_t)j * MOR_EXTRA_SIZE;
+}
+
+/** Numbers from one strain rate to the next. */
+enum { STRAIN_SIZE = sizeof(real) == sizeof(float) ? MOR_PAIR_SINGLE_STRAIN : 6 };
+
+/** Returns the strain rate of a target, shape [6], 1/s; in single precision in the unit of its array. */
+INLINE const real *strain_rate_of(const mor_pair_arrays *arrays, int64_t j)
+{
+    return READ(strain_rate) + j * STRAIN_SIZE;
 }
 
 /** Returns what is read of a target beside its record, shape [MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL with one
@@ -256,19 +309,24 @@ INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 /** Returns the number of the sums of one lane of a cluster that a loop in single precision adds in double. */
 #define SUMS_OF(struct_of_sums) ((int)(sizeof(struct_of_sums) / sizeof(vec)))
 
+#if !defined(MOR_SINGLE)
 /** Takes the sums of a part of a cluster from those of the loop in single precision.
  *  @param totals [in]   shape [n, 8]; units of the loops in single precision
- *  @param scales [in]   shape [n]; what makes SI units of them, powers of two
+ *  @param powers [in]   shape [n]; of the unit of lengths in them, beside that of a volume
  *  @param part   [in]   which LANES of the eight
- *  @param sums   [out]  shape [n] */
-INLINE void take_totals(const real *totals, const double *scales, int n, int part, vec *sums)
+ *  @param sums   [out]  shape [n]; SI units */
+INLINE void take_totals(const double *totals, const signed char *powers, const int n, const mor_pair_constants *c,
+                        int part, vec *sums)
 {
+    const double unit = mor_pair_length_unit(c->smoothing_length);
+    const double volume = mor_pair_volume_unit(c->smoothing_length, c->dimension);
+    typedef double unaligned __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
+    const double scales[3] = {volume, volume * unit, volume * unit * unit};
     for (int k = 0; k < n; ++k) {
-        for (int lane = 0; lane < LANES; ++lane) {
-            sums[k][lane] = (real)(totals[k * MOR_CLUSTER + part * LANES + lane] * scales[k]);
-        }
+        sums[k] = *(const unaligned *)(totals + k * MOR_CLUSTER + part * LANES) * scales[powers[k]];
     }
 }
+#endif
 
 /* The loops of a precision: mor_pair_momentum_2d_avx2, mor_pair_mixed_momentum_2d_avx2, and so on. */
 #if defined(MOR_SINGLE)

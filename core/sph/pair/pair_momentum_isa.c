@@ -163,13 +163,13 @@ INLINE vec relative_stiffness(vec own, real other)
     return select_lanes(sum > 0.0, (real)(2.0 * other) / sum, broadcast(0.0));
 }
 
-INLINE void find_extra(momentum_pair *it, const geometry *g, const real *target, const momentum *m, const frame *f,
-                       const mor_pair_constants *c, const real *strain_rate, const real *of_soil, const real *extra,
-                       const momentum_form form)
+INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const real *target, const momentum *m,
+                       const frame *f, const mor_pair_constants *c, const real *strain_rate, const real *of_soil,
+                       const real *extra, const momentum_form form)
 {
     const vec *v = m->v;
     pair p;
-    separate(p.r, f, target, form.dimension);
+    memcpy(p.r, r, sizeof p.r);
     const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
     const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
     /* Division is slow: all quotients share one. */
@@ -242,11 +242,11 @@ INLINE void add_hourglass(momentum_sums *m, const pair *p, vec k, vec stiffness,
     }
 }
 
-INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const real *target,
-                     const real *extra, const frame *f, const momentum_form form)
+INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const vec *r, const real *target,
+                     const real *extra, const momentum_form form)
 {
     pair p;
-    separate(p.r, f, target, form.dimension);
+    memcpy(p.r, r, sizeof p.r);
     const shears t = shears_of(target + MOR_RECORD_STRESS, extra, form);
     add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, &t, form.dimension);
     if (form.extra) {
@@ -283,7 +283,7 @@ INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, c
         if (has_own || other[MOR_XX] != 0.0 || other[MOR_YY] != 0.0 || other[MOR_ZZ] != 0.0) {
             const geometry g = geometry_at(chunk, q, 0);
             pair p;
-            separate(p.r, f, target_of(arrays, near[q]), form.dimension);
+            separation_at(p.r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
             p.reach = positive_part(1.0 - g.distance * f->half_inverse_h);
             add_artificial(&part->sums, &p, c, g.k, own, other, form.dimension);
         }
@@ -303,12 +303,52 @@ MOR_ARTIFICIAL_FUNCTION(artificial_2d, 2)
 MOR_ARTIFICIAL_FUNCTION(artificial_3d, 3)
 static const adder artificial_adders[2] = {artificial_2d, artificial_3d};
 
+/* Whether a copy of the loop finds sum k. */
+INLINE bool has_sum(const int k, const momentum_form form)
+{
+    const int first_spread = offsetof(momentum_sums, spread_stress) / sizeof(vec);
+    const int first_mean = offsetof(momentum_sums, spread_mean) / sizeof(vec);
+    const int first_extra = offsetof(momentum_sums, stiffness) / sizeof(vec);
+    const int first_several = offsetof(momentum_sums, lever) / sizeof(vec);
+    if (k < first_spread) {
+        return form.dimension == 3 || k % 3 < 2;
+    }
+    if (k < first_extra) {
+        return form.diffuses && (k < first_mean || form.extra);
+    }
+    return form.extra && (k < first_several || form.several);
+}
+
+/* Copies those sums, one by one, so that they stay in registers. */
+INLINE void copy_sums(momentum_sums *to, const momentum_sums *from, const momentum_form form)
+{
+    for (int a = 0; a < form.dimension; ++a) {
+        to->force[a] = from->force[a];
+        to->weight[a] = from->weight[a];
+        to->spread_way[a] = form.diffuses ? from->spread_way[a] : broadcast(0.0);
+        to->hourglass[a] = form.extra ? from->hourglass[a] : broadcast(0.0);
+        to->lever[a] = form.extra && form.several ? from->lever[a] : broadcast(0.0);
+    }
+    for (int a = 0; a < 6 && form.diffuses; ++a) {
+        to->spread_stress[a] = from->spread_stress[a];
+        to->spread_mean[a] = form.extra ? from->spread_mean[a] : broadcast(0.0);
+    }
+    to->spread_weight = form.diffuses ? from->spread_weight : broadcast(0.0);
+    to->spread_rest = form.diffuses && form.extra ? from->spread_rest : broadcast(0.0);
+    to->stiffness = form.extra ? from->stiffness : broadcast(0.0);
+}
+
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
 {
     const real *own = READ(records) + first * MOR_RECORD_SIZE;
     momentum *m = &part->own;
-    memset(part, 0, sizeof *part);
+    memset(m, 0, sizeof *m);
+    for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
+        if (has_sum(k, form)) {
+            ((vec *)&part->sums)[k] = broadcast(0.0);
+        }
+    }
     part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
@@ -320,7 +360,7 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     m->minus_twice_impedance = -(2.0 * m->impedance);
     m->pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
     if (form.linear) {
-        load_first(READ(strain_rate) + first * 6, 6, 6, m->strain_rate);
+        load_first(strain_rate_of(arrays, first), STRAIN_SIZE, 6, m->strain_rate);
     }
     if (form.extra) {
         m->flow = load(READ(extra) + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_FLOW);
@@ -342,18 +382,19 @@ INLINE void compiler_barrier(momentum_part *part)
 }
 
 /* With means there are more sums of the diffusion than registers beside those of the forces. */
-INLINE void add_diffusions(momentum_part *part, const momentum_pairs *pairs, const int32_t *near, int n,
-                           const mor_pair_arrays *arrays, const momentum_form form)
+INLINE void add_diffusions(momentum_part *part, const geometries *chunk, const momentum_pairs *pairs,
+                           const int32_t *near, int n, const mor_pair_arrays *arrays, const momentum_form form)
 {
-    momentum_sums sums = part->sums;
+    momentum_sums sums;
+    copy_sums(&sums, &part->sums, form);
     for (int q = 0; q < n; ++q) {
         const real *target = target_of(arrays, near[q]);
         const momentum_pair it = pair_at(pairs, q, form);
         pair p;
-        separate(p.r, &part->frame, target, form.dimension);
+        separation_at(p.r, chunk, q, &part->frame, target, form.dimension);
         add_diffusion(&sums, &p, &it, target + MOR_RECORD_STRESS, extra_of(arrays, near[q]), form);
     }
-    part->sums = sums;
+    copy_sums(&part->sums, &sums, form);
     compiler_barrier(part);
 }
 
@@ -368,52 +409,59 @@ INLINE void prefetch_rest(const mor_pair_arrays *arrays, int32_t j, const moment
         __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
     }
     if (form.linear) {
-        __builtin_prefetch(READ(strain_rate) + (int64_t)j * 6);
+        __builtin_prefetch(strain_rate_of(arrays, j));
     }
 }
 
-INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor_pair_constants *c,
+INLINE void add_chunk(momentum_part *part, geometries *chunk, const int32_t *near, int n, const mor_pair_constants *c,
                       const mor_pair_arrays *arrays, const momentum_form form)
 {
     const frame *f = &part->frame;
-    geometries chunk;
     momentum_pairs pairs;
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         prefetch_rest(arrays, near[q], form);
-        find_geometry(&chunk, q, target_of(arrays, near[q]), f, form.dimension, form.diffuses);
+        find_geometry(chunk, q, target_of(arrays, near[q]), f, form.dimension, form.diffuses);
     }
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
-        const real *strain_rate = form.linear ? READ(strain_rate) + (int64_t)near[q] * 6 : NULL;
+        const real *strain_rate = form.linear ? strain_rate_of(arrays, near[q]) : NULL;
         const real *of_soil = of_soil_of(arrays, near[q], form.several);
         const real *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
-        const geometry g = geometry_at(&chunk, q, form.diffuses);
+        const geometry g = geometry_at(chunk, q, form.diffuses);
         momentum_pair it;
-        find_extra(&it, &g, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra, form);
+        vec r[3];
+        separation_at(r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
+        find_extra(&it, &g, r, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra, form);
         keep_pair(&pairs, q, &it, form);
     }
     compiler_barrier(part);
-    momentum_sums sums = part->sums;
+    momentum_sums sums;
+    copy_sums(&sums, &part->sums, form);
     for (int q = 0; q < n; ++q) {
         const real *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
-        const geometry g = geometry_at(&chunk, q, form.diffuses);
+        const geometry g = geometry_at(chunk, q, form.diffuses);
         const momentum_pair it = pair_at(&pairs, q, form);
-        add_pair(&sums, &it, &g, target_of(arrays, near[q]), extra, f, form);
+        vec r[3];
+        separation_at(r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
+        add_pair(&sums, &it, &g, r, target_of(arrays, near[q]), extra, form);
     }
-    part->sums = sums;
+    copy_sums(&part->sums, &sums, form);
     compiler_barrier(part);
     if (form.diffuses && form.extra) {
-        add_diffusions(part, &pairs, near, n, arrays, form);
+        add_diffusions(part, chunk, &pairs, near, n, arrays, form);
     }
     if (c->has_artificial_stress) {
-        artificial_adders[form.dimension - 2](part, &chunk, near, n, c, arrays);
+        artificial_adders[form.dimension - 2](part, chunk, near, n, c, arrays);
     }
 }
 
+/* Chunks that are kept at once: in double precision the parts of a cluster take turns. */
+enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
+
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
-INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
-                     int32_t *entry, int32_t *near, const int dimension)
+INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
+                     int32_t count, int32_t *entry, int32_t *near, const int dimension)
 {
     /* Slightly wider, so that rounding omits no pair within the support. */
     const real half = parts[0].frame.half_inverse_h;
@@ -426,7 +474,9 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
             separate(r, &parts[part].frame, target_of(arrays, list[k]), dimension);
-            any |= any_less(squared(r, &parts[part].frame, dimension), reach2);
+            const vec distance2 = squared(r, &parts[part].frame, dimension);
+            keep_separation(chunks + part % KEPT, n, r, distance2, dimension);
+            any |= any_less(distance2, reach2);
         }
         near[n] = list[k];
         n += any != 0;
@@ -436,22 +486,6 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
 }
 
 #if defined(MOR_SINGLE)
-/* Whether a copy of the loop finds sum k. */
-INLINE bool has_sum(const int k, const momentum_form form)
-{
-    const int first_spread = offsetof(momentum_sums, spread_stress) / sizeof(vec);
-    const int first_mean = offsetof(momentum_sums, spread_mean) / sizeof(vec);
-    const int first_extra = offsetof(momentum_sums, stiffness) / sizeof(vec);
-    const int first_several = offsetof(momentum_sums, lever) / sizeof(vec);
-    if (k < first_spread) {
-        return form.dimension == 3 || k % 3 < 2;
-    }
-    if (k < first_extra) {
-        return form.diffuses && (k < first_mean || form.extra);
-    }
-    return form.extra && (k < first_several || form.several);
-}
-
 /* Adds the sums of a chunk to those in double precision, and starts them anew. */
 INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const int part, const momentum_form form)
 {
@@ -471,6 +505,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
                              const momentum_form form)
 {
     momentum_part parts[PARTS];
+    geometries chunks[KEPT];
     for (int part = 0; part < PARTS; ++part) {
         start_momentum(parts + part, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
     }
@@ -483,9 +518,9 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
-        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form.dimension);
+        const int n = find_near(parts, chunks, arrays, list, count, &entry, near + n_near, form.dimension);
         for (int part = 0; part < PARTS; ++part) {
-            add_chunk(parts + part, near + n_near, n, c, arrays, form);
+            add_chunk(parts + part, chunks + part % KEPT, near + n_near, n, c, arrays, form);
 #if defined(MOR_SINGLE)
             add_totals(totals, &parts[part].sums, part, form);
 #endif
@@ -558,16 +593,10 @@ void LOOP_NAME(momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *
 void MOR_ISA_NAME(mor_pair_finish_momentum)(const double *totals, const mor_pair_constants *c,
                                             const mor_pair_arrays *arrays, int64_t cluster, momentum_form form)
 {
-    const double unit = mor_pair_length_unit(c->smoothing_length);
-    const double volume = mor_pair_volume_unit(c->smoothing_length, c->dimension);
-    double scales[SUMS_OF(momentum_sums)];
-    for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
-        scales[k] = momentum_powers[k] ? volume * unit : volume;
-    }
     for (int part = 0; part < PARTS; ++part) {
         const int64_t first = cluster * MOR_CLUSTER + part * LANES;
         momentum_sums sums;
-        take_totals(totals, scales, SUMS_OF(momentum_sums), part, (vec *)&sums);
+        take_totals(totals, momentum_powers, SUMS_OF(momentum_sums), c, part, (vec *)&sums);
         const vec soil = form.several ? load(arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE,
                                              MOR_PAIR_OF_SOIL_INDEX)
                                       : broadcast(0.0);

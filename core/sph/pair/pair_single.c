@@ -12,11 +12,11 @@ enum { N_ARRAYS = 5 };
 
 /* One array and its copy. */
 typedef struct copied {
-    const double *from; /* shape [n, width]; NULL: not wanted */
-    float **room;       /* shape [capacity, width] */
-    const float **read; /* by the loops */
-    double scale;       /* on its values, a power of two */
-    int width;
+    const double *from;   /* shape [n, width]; NULL: not wanted */
+    float **room;         /* shape [capacity, out_width] */
+    const float **read;   /* by the loops */
+    double scale;         /* on its values, a power of two */
+    int width, out_width; /* numbers of an entry, and from one copy to the next */
 } copied;
 
 /* What copies are made of, and in which units. */
@@ -30,11 +30,11 @@ static packing open_packing(const mor_pair_constants *constants, mor_pair_single
     const double unit = mor_pair_length_unit(constants->smoothing_length);
     mor_pair_single_arrays *out = &arrays->singles;
     const copied all[N_ARRAYS] = {
-        {arrays->records, &singles->records, &out->records, 1.0, MOR_RECORD_SIZE},
-        {arrays->extra, &singles->extra, &out->extra, 1.0, MOR_EXTRA_SIZE},
-        {arrays->artificial_stress, &singles->artificial_stress, &out->artificial_stress, 1.0, 6},
-        {arrays->strain_rate, &singles->strain_rate, &out->strain_rate, unit, 6},
-        {arrays->of_soil, &singles->of_soil, &out->of_soil, 1.0, MOR_PAIR_OF_SOIL_SIZE}};
+        {arrays->records, &singles->records, &out->records, 1.0, MOR_RECORD_SIZE, MOR_RECORD_SIZE},
+        {arrays->extra, &singles->extra, &out->extra, 1.0, MOR_EXTRA_SIZE, MOR_EXTRA_SIZE},
+        {arrays->artificial_stress, &singles->artificial_stress, &out->artificial_stress, 1.0, 6, 6},
+        {arrays->strain_rate, &singles->strain_rate, &out->strain_rate, unit, 6, MOR_PAIR_SINGLE_STRAIN},
+        {arrays->of_soil, &singles->of_soil, &out->of_soil, 1.0, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE}};
     packing it = {.unit = unit, .volume_unit = mor_pair_volume_unit(constants->smoothing_length, constants->dimension)};
     memcpy(it.list, all, sizeof all);
     return it;
@@ -49,7 +49,7 @@ static mor_status reserve(mor_context *context, mor_pair_singles *singles, const
     }
     for (int k = 0; k < N_ARRAYS; ++k) {
         if (list[k].from != NULL && *list[k].room == NULL) {
-            MOR_TRY(context, MOR_NEW(context, list[k].room, singles->capacity * list[k].width, "singles"));
+            MOR_TRY(context, MOR_NEW(context, list[k].room, singles->capacity * list[k].out_width, "singles"));
         }
     }
     return MOR_OK;
@@ -79,8 +79,8 @@ static void copy_entry(const packing *it, int64_t i)
     const copied *list = it->list;
     copy_record(it, list[0].from + i * MOR_RECORD_SIZE, *list[0].room + i * MOR_RECORD_SIZE);
     for (int k = 1; k < N_ARRAYS; ++k) {
-        for (int64_t a = i * list[k].width; list[k].from != NULL && a < (i + 1) * list[k].width; ++a) {
-            (*list[k].room)[a] = (float)(list[k].scale * list[k].from[a]);
+        for (int a = 0; list[k].from != NULL && a < list[k].width; ++a) {
+            (*list[k].room)[i * list[k].out_width + a] = (float)(list[k].scale * list[k].from[i * list[k].width + a]);
         }
     }
 }
@@ -92,7 +92,7 @@ static void copy_image(const packing *it, const mor_images *images, int64_t k)
     const int64_t i = images->first + k;
     const int64_t owner = images->owner[k];
     for (int array = 0; array < N_ARRAYS; ++array) {
-        const int width = list[array].width;
+        const int width = list[array].out_width;
         if (list[array].from != NULL) {
             memcpy(*list[array].room + i * width, *list[array].room + owner * width, (size_t)width * sizeof(float));
         }
@@ -140,7 +140,8 @@ void mor_pair_singles_clear(mor_context *context, mor_pair_singles *singles)
 double mor_pair_singles_bytes(const mor_pair_singles *singles)
 {
     const int width = (singles->records != NULL ? MOR_RECORD_SIZE : 0) + (singles->extra != NULL ? MOR_EXTRA_SIZE : 0) +
-                      (singles->artificial_stress != NULL ? 6 : 0) + (singles->strain_rate != NULL ? 6 : 0) +
+                      (singles->artificial_stress != NULL ? 6 : 0) +
+                      (singles->strain_rate != NULL ? MOR_PAIR_SINGLE_STRAIN : 0) +
                       (singles->of_soil != NULL ? MOR_PAIR_OF_SOIL_SIZE : 0);
     return width * (double)sizeof(float);
 }

@@ -15,7 +15,7 @@ typedef struct mor_pair_singles {
     float *records;           /* shape [capacity, 16] */
     float *extra;             /* shape [capacity, 16]; or NULL */
     float *artificial_stress; /* shape [capacity, 6]; or NULL */
-    float *strain_rate;       /* shape [capacity, 6]; or NULL */
+    float *strain_rate;       /* shape [capacity, MOR_PAIR_SINGLE_STRAIN]; or NULL */
     float *of_soil;           /* shape [capacity, MOR_PAIR_OF_SOIL_SIZE]; or NULL */
     int64_t capacity;         /* particles and images there is room for */
 } mor_pair_singles;
