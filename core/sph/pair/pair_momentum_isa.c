@@ -344,11 +344,7 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     const real *own = READ(records) + first * MOR_RECORD_SIZE;
     momentum *m = &part->own;
     memset(m, 0, sizeof *m);
-    for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
-        if (has_sum(k, form)) {
-            ((vec *)&part->sums)[k] = broadcast(0.0);
-        }
-    }
+    memset(&part->sums, 0, sizeof part->sums);
     part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
