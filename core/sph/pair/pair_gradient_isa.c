@@ -32,6 +32,9 @@ _Static_assert(sizeof gradient_powers == SUMS_OF(gradient_sums), "one power for 
 
 /* What is found of a pair before it is added. */
 typedef struct gradient_pair {
+#if defined(MOR_SINGLE)
+    vec r[3], k; /* separation, (1 - q/2)^3 V; kept: integers cost more to separate than these to read */
+#endif
     vec distance; /* m */
     vec reach;    /* 1 - q/2 inside the support, 0 outside */
     vec share;    /* of the closing speed that v_i - v* takes, halved, eqs. 15 and 19 */
@@ -59,6 +62,10 @@ INLINE void find_share(gradient_pair *it, const real *target, const gradient *g,
     vec other = broadcast(target[MOR_RECORD_IMPEDANCE]);
     it->distance = p.distance;
     it->reach = p.reach;
+#if defined(MOR_SINGLE)
+    memcpy(it->r, p.r, sizeof it->r);
+    it->k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+#endif
     if (form.fits == 2) {
         return;
     }
@@ -69,15 +76,29 @@ INLINE void find_share(gradient_pair *it, const real *target, const gradient *g,
     it->share = other / (g->impedance + other);
 }
 
+/* Separation and weight (1 - q/2)^3 V of a target: found anew, or in single precision as they were kept. */
+INLINE vec take_pair(const gradient_pair *it, const real *target, const frame *f, vec *r, const int dimension)
+{
+#if defined(MOR_SINGLE)
+    (void)target, (void)f;
+    for (int a = 0; a < dimension; ++a) {
+        r[a] = it->r[a];
+    }
+    return it->k;
+#else
+    separate(r, f, target, dimension);
+    return it->reach * it->reach * it->reach * target[MOR_RECORD_VOLUME];
+#endif
+}
+
 INLINE void add_gradient(gradient_sums *m, const gradient *g, const gradient_pair *it, const real *target,
                          const frame *f, const gradient_form form)
 {
     const int dimension = form.dimension;
-    const vec k = it->reach * it->reach * it->reach * target[MOR_RECORD_VOLUME];
     vec r[3];
     vec jump[3];
     vec kr[3];
-    separate(r, f, target, dimension);
+    const vec k = take_pair(it, target, f, r, dimension);
     for (int a = 0; a < dimension; ++a) {
         jump[a] = g->v[a] - target[MOR_RECORD_VELOCITY + a];
     }
@@ -87,18 +108,8 @@ INLINE void add_gradient(gradient_sums *m, const gradient *g, const gradient_pai
             m->moment[3 * a + b] += kr[b] * jump[a];
         }
     }
-    if (form.fits) {
-        m->weight += k;
-        for (int a = 0; a < dimension; ++a) {
-            m->jump[a] += k * jump[a];
-            m->way[a] += kr[a];
-            m->shape[a] += kr[a] * r[a];
-        }
-        m->shape[MOR_XY] += kr[0] * r[1];
-        if (dimension == 3) {
-            m->shape[MOR_YZ] += kr[1] * r[2];
-            m->shape[MOR_ZX] += kr[2] * r[0];
-        }
+    for (int a = 0; a < dimension && form.fits; ++a) {
+        m->jump[a] += k * jump[a];
     }
     if (form.fits == 2) {
         return;
@@ -112,6 +123,25 @@ INLINE void add_gradient(gradient_sums *m, const gradient *g, const gradient_pai
             pressures = (vec)((mask)pressures & it->same);
         }
         m->rate += k / impedances * pressures * it->distance;
+    }
+}
+
+/* What a fit needs of a target beside its velocity. */
+INLINE void add_shape(gradient_sums *m, const gradient_pair *it, const real *target, const frame *f,
+                      const gradient_form form)
+{
+    vec r[3];
+    const vec k = take_pair(it, target, f, r, form.dimension);
+    m->weight += k;
+    for (int a = 0; a < form.dimension; ++a) {
+        const vec kr = k * r[a];
+        m->way[a] += kr;
+        m->shape[a] += kr * r[a];
+    }
+    m->shape[MOR_XY] += k * r[0] * r[1];
+    if (form.dimension == 3) {
+        m->shape[MOR_YZ] += k * r[1] * r[2];
+        m->shape[MOR_ZX] += k * r[2] * r[0];
     }
 }
 
@@ -242,14 +272,67 @@ INLINE void copy_sums(gradient_sums *to, const gradient_sums *from, const gradie
 }
 #endif
 
+#if defined(MOR_SINGLE)
+/* The sums in passes over a chunk of targets, each with the registers for itself, as in the momentum loop. */
+INLINE void sum_pairs(gradient_sums *sums, double (*totals)[MOR_CLUSTER], const mor_pair_arrays *arrays,
+                      const gradient *g, const frame *f, const int32_t *near, int32_t count, int64_t first,
+                      const gradient_form form)
+{
+    gradient_pair chunk[CHUNK];
+    for (int32_t start = 0; start < count; start += CHUNK) {
+        const int n = count - start < CHUNK ? count - start : CHUNK;
+        gradient_sums of_chunk;
+        memset(&of_chunk, 0, sizeof of_chunk);
+        for (int q = 0; q < n; ++q) {
+            const int32_t j = near[start + q];
+            __builtin_prefetch(target_of(arrays, near[start + q + AHEAD < count ? start + q + AHEAD : start + q]));
+            find_share(chunk + q, target_of(arrays, j), g, f, of_soil_of(arrays, j, form.several), form);
+        }
+        for (int q = 0; q < n; ++q) {
+            add_gradient(&of_chunk, g, chunk + q, target_of(arrays, near[start + q]), f, form);
+        }
+        for (int q = 0; q < n && form.fits; ++q) {
+            add_shape(&of_chunk, chunk + q, target_of(arrays, near[start + q]), f, form);
+        }
+        copy_sums(sums, &of_chunk, form);
+        add_totals(totals, sums, first % MOR_CLUSTER, form);
+    }
+}
+#else
 /* RING: pairs in a ring, more than STEP_AHEAD. */
 enum { RING = 8 };
 
-/* One past the last pair of the chunk that begins with q, of so many: in double precision there is one. */
-INLINE int32_t chunk_end(int32_t q, int32_t count)
+INLINE void add_both(gradient_sums *m, const gradient *g, const gradient_pair *it, const real *target, const frame *f,
+                     const gradient_form form)
 {
-    return sizeof(real) == sizeof(float) && count - q > CHUNK ? q + CHUNK : count;
+    add_gradient(m, g, it, target, f, form);
+    if (form.fits) {
+        add_shape(m, it, target, f, form);
+    }
 }
+
+INLINE void sum_pairs(gradient_sums *sums, double (*totals)[MOR_CLUSTER], const mor_pair_arrays *arrays,
+                      const gradient *g, const frame *f, const int32_t *near, int32_t count, int64_t first,
+                      const gradient_form form)
+{
+    (void)totals, (void)first;
+    gradient_pair ring[RING];
+    for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
+        find_share(ring + q % RING, target_of(arrays, near[q]), g, f, of_soil_of(arrays, near[q], form.several), form);
+    }
+    int32_t q = 0;
+    for (; q + STEP_AHEAD < count; ++q) {
+        const int32_t later = q + STEP_AHEAD;
+        __builtin_prefetch(target_of(arrays, near[q + AHEAD < count ? q + AHEAD : q]));
+        find_share(ring + later % RING, target_of(arrays, near[later]), g, f,
+                   of_soil_of(arrays, near[later], form.several), form);
+        add_both(sums, g, ring + q % RING, target_of(arrays, near[q]), f, form);
+    }
+    for (; q < count; ++q) {
+        add_both(sums, g, ring + q % RING, target_of(arrays, near[q]), f, form);
+    }
+}
+#endif
 
 /* The sums of a part of a cluster, which are written, or added to totals, shape [SUMS_OF(gradient_sums), 8]. */
 INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *arrays, double (*totals)[MOR_CLUSTER],
@@ -277,33 +360,8 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
         ask_for(mor_relation_near(arrays->inner, next), size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
         ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
     }
-    gradient_pair ring[RING];
-    for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
-        find_share(ring + q % RING, target_of(arrays, near[q]), &g, &f, of_soil_of(arrays, near[q], form.several),
-                   form);
-    }
-    for (int32_t q = 0; q < count;) {
-        const int32_t end = chunk_end(q, count);
-        const int32_t end_ahead = end < count - STEP_AHEAD ? end : count - STEP_AHEAD;
-        for (; q < end_ahead; ++q) {
-            const int32_t later = q + STEP_AHEAD;
-            __builtin_prefetch(target_of(arrays, near[q + AHEAD < count ? q + AHEAD : q]));
-            find_share(ring + later % RING, target_of(arrays, near[later]), &g, &f,
-                       of_soil_of(arrays, near[later], form.several), form);
-            add_gradient(&sums, &g, ring + q % RING, target_of(arrays, near[q]), &f, form);
-        }
-        for (; q < end; ++q) {
-            add_gradient(&sums, &g, ring + q % RING, target_of(arrays, near[q]), &f, form);
-        }
-#if defined(MOR_SINGLE)
-        gradient_sums of_chunk;
-        copy_sums(&of_chunk, &sums, form);
-        add_totals(totals, &of_chunk, first % MOR_CLUSTER, form);
-        memset(&sums, 0, sizeof sums);
-#endif
-    }
+    sum_pairs(&sums, totals, arrays, &g, &f, near, count, first, form);
 #if !defined(MOR_SINGLE)
-    (void)totals;
     gradient_finish(&sums, c, arrays, first, form);
 #endif
 }
@@ -315,6 +373,8 @@ INLINE void gradient_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 #if defined(MOR_SINGLE)
     double totals[SUMS_OF(gradient_sums)][MOR_CLUSTER];
     memset(totals, 0, sizeof totals);
+    ask_for(arrays->records + cluster * MOR_CLUSTER * MOR_RECORD_SIZE,
+            MOR_CLUSTER * MOR_RECORD_SIZE * (int64_t)sizeof(double), 0);
 #else
     double(*totals)[MOR_CLUSTER] = NULL;
 #endif

@@ -459,8 +459,12 @@ enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
 INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
                      int32_t count, int32_t *entry, int32_t *near, const int dimension)
 {
+    frame frames[PARTS]; /* stay in registers, for nobody else sees them */
+    for (int part = 0; part < PARTS; ++part) {
+        frames[part] = parts[part].frame;
+    }
     /* Slightly wider, so that rounding omits no pair within the support. */
-    const real half = parts[0].frame.half_inverse_h;
+    const real half = frames[0].half_inverse_h;
     const real reach2 = (real)(1.0 + (sizeof(real) == sizeof(float) ? 0x1p-19 : 0x1p-40)) / (half * half);
     int32_t k = *entry;
     int n = 0;
@@ -469,8 +473,8 @@ INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_p
         int any = 0;
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
-            separate(r, &parts[part].frame, target_of(arrays, list[k]), dimension);
-            const vec distance2 = squared(r, &parts[part].frame, dimension);
+            separate(r, &frames[part], target_of(arrays, list[k]), dimension);
+            const vec distance2 = squared(r, &frames[part], dimension);
             keep_separation(chunks + part % KEPT, n, r, distance2, dimension);
             any |= any_less(distance2, reach2);
         }
@@ -497,6 +501,18 @@ INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const
 }
 #endif
 
+#if defined(MOR_SINGLE)
+/* Prefetches what is read of a cluster in double precision once the sums are known. */
+INLINE void ask_for_doubles(const mor_pair_arrays *arrays, int64_t cluster, const momentum_form form)
+{
+    const int64_t first = cluster * MOR_CLUSTER;
+    ask_for(arrays->records + first * MOR_RECORD_SIZE, MOR_CLUSTER * MOR_RECORD_SIZE * (int64_t)sizeof(double), 0);
+    if (form.extra) {
+        ask_for(arrays->extra + first * MOR_EXTRA_SIZE, MOR_CLUSTER * MOR_EXTRA_SIZE * (int64_t)sizeof(double), 0);
+    }
+}
+#endif
+
 INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t cluster,
                              const momentum_form form)
 {
@@ -508,6 +524,7 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 #if defined(MOR_SINGLE)
     double totals[SUMS_OF(momentum_sums)][MOR_CLUSTER];
     memset(totals, 0, sizeof totals);
+    ask_for_doubles(arrays, cluster, form);
 #endif
     const int32_t *list = arrays->inner->lists[cluster];
     const int32_t count = arrays->inner->counts[cluster];
