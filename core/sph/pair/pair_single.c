@@ -23,6 +23,7 @@ typedef struct copied {
 typedef struct packing {
     copied list[N_ARRAYS];
     double unit, volume_unit;
+    int64_t n; /* particles */
 } packing;
 
 static packing open_packing(const mor_pair_constants *constants, mor_pair_singles *singles, mor_pair_arrays *arrays)
@@ -35,7 +36,9 @@ static packing open_packing(const mor_pair_constants *constants, mor_pair_single
         {arrays->artificial_stress, &singles->artificial_stress, &out->artificial_stress, 1.0, 6, 6},
         {arrays->strain_rate, &singles->strain_rate, &out->strain_rate, unit, 6, MOR_PAIR_SINGLE_STRAIN},
         {arrays->of_soil, &singles->of_soil, &out->of_soil, 1.0, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE}};
-    packing it = {.unit = unit, .volume_unit = mor_pair_volume_unit(constants->smoothing_length, constants->dimension)};
+    packing it = {.n = arrays->n_particles,
+                  .unit = unit,
+                  .volume_unit = mor_pair_volume_unit(constants->smoothing_length, constants->dimension)};
     memcpy(it.list, all, sizeof all);
     return it;
 }
@@ -61,23 +64,36 @@ static uint32_t round_length(double length, double unit)
     return (uint32_t)llrint(length / unit);
 }
 
-/* Places become integers, which stand where singles would. */
-static void copy_record(const packing *it, const double *record, float *out)
+/* Whole periods along an axis in units of places: a multiple of one rounded period, modulo 2^32. */
+static uint32_t round_periods(const mor_images *images, int axis, double length, double unit)
 {
+    const double period = images->period->length[axis];
+    return period > 0.0 ? (uint32_t)llrint(length / period) * round_length(period, unit) : 0;
+}
+
+/* Places become integers, which stand where singles would. What puts a particle back through a face is rounded by
+ * itself, so that it does not matter when that is done. */
+static void copy_record(const packing *it, const mor_images *images, int64_t i)
+{
+    const double *record = it->list[0].from + i * MOR_RECORD_SIZE;
+    float *out = *it->list[0].room + i * MOR_RECORD_SIZE;
+    const double *wrap = mor_images_are_used(images) ? images->wrap + 3 * (i < it->n ? i : it->n - 1) : NULL;
     for (int a = MOR_RECORD_VOLUME + 1; a < MOR_RECORD_SIZE; ++a) {
         out[a] = (float)record[a];
     }
     out[MOR_RECORD_VOLUME] = (float)(record[MOR_RECORD_VOLUME] / it->volume_unit);
     for (int a = 0; a < 3; ++a) {
-        const uint32_t at = round_length(record[MOR_RECORD_POSITION + a], it->unit);
+        const double wrapped = wrap != NULL ? wrap[a] : 0.0;
+        uint32_t at = round_length(record[MOR_RECORD_POSITION + a] - wrapped, it->unit);
+        at += wrapped != 0.0 ? round_periods(images, a, wrapped, it->unit) : 0;
         memcpy(out + MOR_RECORD_POSITION + a, &at, sizeof at);
     }
 }
 
-static void copy_entry(const packing *it, int64_t i)
+static void copy_entry(const packing *it, const mor_images *images, int64_t i)
 {
     const copied *list = it->list;
-    copy_record(it, list[0].from + i * MOR_RECORD_SIZE, *list[0].room + i * MOR_RECORD_SIZE);
+    copy_record(it, images, i);
     for (int k = 1; k < N_ARRAYS; ++k) {
         for (int a = 0; list[k].from != NULL && a < list[k].width; ++a) {
             (*list[k].room)[i * list[k].out_width + a] = (float)(list[k].scale * list[k].from[i * list[k].width + a]);
@@ -101,7 +117,7 @@ static void copy_image(const packing *it, const mor_images *images, int64_t k)
         float *place = *list[0].room + i * MOR_RECORD_SIZE + MOR_RECORD_POSITION + a;
         uint32_t at;
         memcpy(&at, place, sizeof at);
-        at += round_length(images->shift[3 * k + a], it->unit);
+        at += round_periods(images, a, images->shift[3 * k + a], it->unit);
         memcpy(place, &at, sizeof at);
     }
 }
@@ -115,7 +131,7 @@ mor_status mor_pair_singles_pack(mor_context *context, const mor_pair_constants 
     MOR_TRY(context, reserve(context, singles, it.list, padded, n_images));
     MOR_PARALLEL_FOR (context, block, mor_block_count(padded), 1) {
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, padded); ++i) {
-            copy_entry(&it, i);
+            copy_entry(&it, images, i);
         }
     }
     MOR_PARALLEL_FOR (context, k, n_images, MOR_BLOCK) {
@@ -137,11 +153,11 @@ void mor_pair_singles_clear(mor_context *context, mor_pair_singles *singles)
     singles->capacity = 0;
 }
 
-double mor_pair_singles_bytes(const mor_pair_singles *singles)
+double mor_pair_singles_bytes(const mor_pair_arrays *arrays)
 {
-    const int width = (singles->records != NULL ? MOR_RECORD_SIZE : 0) + (singles->extra != NULL ? MOR_EXTRA_SIZE : 0) +
-                      (singles->artificial_stress != NULL ? 6 : 0) +
-                      (singles->strain_rate != NULL ? MOR_PAIR_SINGLE_STRAIN : 0) +
-                      (singles->of_soil != NULL ? MOR_PAIR_OF_SOIL_SIZE : 0);
+    const int width = MOR_RECORD_SIZE + (arrays->extra != NULL ? MOR_EXTRA_SIZE : 0) +
+                      (arrays->artificial_stress != NULL ? 6 : 0) +
+                      (arrays->strain_rate != NULL ? MOR_PAIR_SINGLE_STRAIN : 0) +
+                      (arrays->of_soil != NULL ? MOR_PAIR_OF_SOIL_SIZE : 0);
     return width * (double)sizeof(float);
 }

@@ -34,7 +34,7 @@ mor_status mor_pair_singles_pack(mor_context *context, const mor_pair_constants 
 /** Frees what is owned; accepts a zeroed one. */
 void mor_pair_singles_clear(mor_context *context, mor_pair_singles *singles);
 
-/** Memory for each particle or image, bytes. */
-double mor_pair_singles_bytes(const mor_pair_singles *singles);
+/** Memory of the copies of arrays for each particle or image, bytes. */
+double mor_pair_singles_bytes(const mor_pair_arrays *arrays);
 
 #endif
