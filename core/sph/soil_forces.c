@@ -56,9 +56,9 @@ static mor_status run_in_precision(mor_context *context, mor_soil *soil, mor_pai
                                    const mor_pair_loop *in_double, const mor_pair_loop *mixed)
 {
     const bool is_mixed = soil->settings.scheme.precision == 1;
-    if (is_mixed) {
-        MOR_TRY(context, mor_pair_singles_pack(context, &soil->constants, &soil->images, &soil->singles, arrays));
-    }
+    MOR_TRY(context, !is_mixed
+                         ? MOR_OK
+                         : mor_pair_singles_pack(context, &soil->constants, &soil->images, &soil->singles, arrays));
     mor_soil_run_pairs(context, &soil->constants, arrays, (is_mixed ? mixed : in_double)[soil->settings.dimension - 2]);
     return MOR_OK;
 }
@@ -159,8 +159,7 @@ static void set_diffusion(mor_context *context, mor_soil *soil, const mor_step *
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    const mor_soil_settings *s = &soil->settings;
-    const double gravity = mor_soil_gravity_part(soil, step) * mor_vector_length(s->gravity);
+    const double gravity = mor_soil_gravity_part(soil, step) * mor_vector_length(soil->settings.gravity);
     for (int k = 0; k < soil->n_kinds; ++k) {
         find_rest_gradient(&soil->kinds[k], gravity, soil->constants.gravity_direction,
                            soil->pair_soils[k].rest_gradient);
@@ -220,7 +219,6 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
     arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    arrays.extra = NULL; /* is not read */
     MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->gradient, soil->table->mixed_gradient));
     mor_hold_stop(&soil->hold, arrays.hourglass_rate, 3);
     return MOR_OK;

@@ -120,8 +120,8 @@ typedef struct mor_pair_constants {
 /* Singles from one strain rate to the next: half a cache line. */
 enum { MOR_PAIR_SINGLE_STRAIN = 8 };
 
-/** What the loops in single precision read of particles, packed by mor_pair_singles_pack; borrowed. Places are integers,
- *  see mor_pair_length_unit, volumes in mor_pair_volume_unit, strain rates in m/s per length unit. */
+/** What the loops in single precision read of particles, packed by mor_pair_singles_pack; borrowed. Places are
+ *  integers, see mor_pair_length_unit, volumes in mor_pair_volume_unit, strain rates in m/s per length unit. */
 typedef struct mor_pair_single_arrays {
     const float *records;           /* shape [n padded to 8, 16]; order of MOR_RECORD_... */
     const float *extra;             /* shape [n padded to 8, 16]; order and units of MOR_EXTRA_...; NULL without */
@@ -130,8 +130,8 @@ typedef struct mor_pair_single_arrays {
     const float *of_soil; /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
 } mor_pair_single_arrays;
 
-/** Returns the unit of places and lengths in single precision, m: a power of two between h 2^-23 and h 2^-22. Places are
- *  rounded to it and kept modulo 2^32, so that differences of places up to 512 h apart come out exactly, and those
+/** Returns the unit of places and lengths in single precision, m: a power of two between h 2^-23 and h 2^-22. Places
+ *  are rounded to it and kept modulo 2^32, so that differences of places up to 512 h apart come out exactly, and those
  *  within the support are exact as singles, too.
  *  @param h [in]  smoothing length, m */
 static inline double mor_pair_length_unit(double h)

@@ -313,6 +313,8 @@ INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
 /** Takes the sums of a part of a cluster from those of the loop in single precision.
  *  @param totals [in]   shape [n, 8]; units of the loops in single precision
  *  @param powers [in]   shape [n]; of the unit of lengths in them, beside that of a volume
+ *  @param n      [in]   number of sums
+ *  @param c      [in]   of the set
  *  @param part   [in]   which LANES of the eight
  *  @param sums   [out]  shape [n]; SI units */
 INLINE void take_totals(const double *totals, const signed char *powers, const int n, const mor_pair_constants *c,
@@ -334,20 +336,30 @@ INLINE void take_totals(const double *totals, const signed char *powers, const i
 #else
 #define LOOP_NAME(name) MOR_ISA_NAME(mor_pair_##name)
 #endif
-#define MOR_PAIR_DECLARE_LOOP(name)                                                                                    \
-    void MOR_ISA_NAME(name)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
-
-/** Find acceleration and stress diffusion of a range of clusters, in plane strain and in space, in both precisions. See
- *  mor_pair_table. */
-MOR_PAIR_DECLARE_LOOP(mor_pair_momentum_2d);
-MOR_PAIR_DECLARE_LOOP(mor_pair_momentum_3d);
-MOR_PAIR_DECLARE_LOOP(mor_pair_mixed_momentum_2d);
-MOR_PAIR_DECLARE_LOOP(mor_pair_mixed_momentum_3d);
-/** Find velocity gradient and density rate. See mor_pair_table. */
-MOR_PAIR_DECLARE_LOOP(mor_pair_gradient_2d);
-MOR_PAIR_DECLARE_LOOP(mor_pair_gradient_3d);
-MOR_PAIR_DECLARE_LOOP(mor_pair_mixed_gradient_2d);
-MOR_PAIR_DECLARE_LOOP(mor_pair_mixed_gradient_3d);
+/** Finds acceleration and stress diffusion of clusters in plane strain. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** Finds acceleration and stress diffusion of clusters in space. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** As mor_pair_momentum_2d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
+/** As mor_pair_momentum_3d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
+/** Finds velocity gradient and density rate of clusters in plane strain. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_gradient_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** Finds velocity gradient and density rate of clusters in space. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_gradient_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** As mor_pair_gradient_2d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_gradient_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
+/** As mor_pair_gradient_3d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_gradient_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
 /** Finds kernel sums over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
                                    int64_t last);

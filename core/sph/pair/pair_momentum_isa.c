@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Relative motion times distance below which nothing moves, m/s times the unit of lengths: far below rounding, far above
- * the smallest number. */
+/* Relative motion times distance below which nothing moves, m/s times the unit of lengths: far below rounding, far
+ * above the smallest number. */
 #if defined(MOR_SINGLE)
 #define LEAST_MOTION 1.0e-20F
 #else
@@ -163,6 +163,25 @@ INLINE vec relative_stiffness(vec own, real other)
     return select_lanes(sum > 0.0, (real)(2.0 * other) / sum, broadcast(0.0));
 }
 
+/* Weights of stress diffusion; moved: how far the pair moves on the scale of the limiter, 1. */
+INLINE void find_diffusion(momentum_pair *it, const geometry *g, const momentum *m, const frame *f,
+                           const mor_pair_constants *c, vec moved, const real *of_soil, const real *extra,
+                           const momentum_form form)
+{
+    it->kd = g->k * g->distance2 / (g->distance2 + f->core2);
+    if (form.diffuses == 2 || (form.extra && c->has_limited_diffusion && !c->has_transient)) {
+        it->kd *= smaller(moved, broadcast(1.0));
+    }
+    if (form.several) {
+        /* Stress jumps where soils meet, and must not spread across. */
+        it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
+    }
+    if (form.extra) {
+        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
+        it->rest = c->has_transient ? rest : broadcast(0.0);
+    }
+}
+
 INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const real *target, const momentum *m,
                        const frame *f, const mor_pair_constants *c, const real *strain_rate, const real *of_soil,
                        const real *extra, const momentum_form form)
@@ -206,18 +225,7 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const
     const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
     it->extra = multiply_add(dissipation, limited, pressures) * (inverse * g->distance);
     if (form.diffuses) {
-        it->kd = g->k * g->distance2 / (g->distance2 + f->core2);
-    }
-    if (form.diffuses == 2 || (form.diffuses && form.extra && c->has_limited_diffusion && !c->has_transient)) {
-        it->kd *= smaller(magnitude(speed) * limiter_rate, broadcast(1.0));
-    }
-    if (form.diffuses && form.several) {
-        /* Stress jumps where soils meet, and must not spread across. */
-        it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
-    }
-    if (form.diffuses && form.extra) {
-        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
-        it->rest = c->has_transient ? rest : broadcast(0.0);
+        find_diffusion(it, g, m, f, c, magnitude(speed) * limiter_rate, of_soil, extra, form);
     }
     if (form.extra && form.several) {
         it->stiffness =
@@ -302,41 +310,6 @@ typedef void (*adder)(momentum_part *part, const geometries *chunk, const int32_
 MOR_ARTIFICIAL_FUNCTION(artificial_2d, 2)
 MOR_ARTIFICIAL_FUNCTION(artificial_3d, 3)
 static const adder artificial_adders[2] = {artificial_2d, artificial_3d};
-
-/* Whether a copy of the loop finds sum k. */
-INLINE bool has_sum(const int k, const momentum_form form)
-{
-    const int first_spread = offsetof(momentum_sums, spread_stress) / sizeof(vec);
-    const int first_mean = offsetof(momentum_sums, spread_mean) / sizeof(vec);
-    const int first_extra = offsetof(momentum_sums, stiffness) / sizeof(vec);
-    const int first_several = offsetof(momentum_sums, lever) / sizeof(vec);
-    if (k < first_spread) {
-        return form.dimension == 3 || k % 3 < 2;
-    }
-    if (k < first_extra) {
-        return form.diffuses && (k < first_mean || form.extra);
-    }
-    return form.extra && (k < first_several || form.several);
-}
-
-/* Copies those sums, one by one, so that they stay in registers. */
-INLINE void copy_sums(momentum_sums *to, const momentum_sums *from, const momentum_form form)
-{
-    for (int a = 0; a < form.dimension; ++a) {
-        to->force[a] = from->force[a];
-        to->weight[a] = from->weight[a];
-        to->spread_way[a] = form.diffuses ? from->spread_way[a] : broadcast(0.0);
-        to->hourglass[a] = form.extra ? from->hourglass[a] : broadcast(0.0);
-        to->lever[a] = form.extra && form.several ? from->lever[a] : broadcast(0.0);
-    }
-    for (int a = 0; a < 6 && form.diffuses; ++a) {
-        to->spread_stress[a] = from->spread_stress[a];
-        to->spread_mean[a] = form.extra ? from->spread_mean[a] : broadcast(0.0);
-    }
-    to->spread_weight = form.diffuses ? from->spread_weight : broadcast(0.0);
-    to->spread_rest = form.diffuses && form.extra ? from->spread_rest : broadcast(0.0);
-    to->stiffness = form.extra ? from->stiffness : broadcast(0.0);
-}
 
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
@@ -486,22 +459,6 @@ INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_p
 }
 
 #if defined(MOR_SINGLE)
-/* Adds the sums of a chunk to those in double precision, and starts them anew. */
-INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const int part, const momentum_form form)
-{
-    typedef double wide_vec __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
-    vec *of_chunk = (vec *)sums;
-    for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
-        if (has_sum(k, form)) {
-            wide_vec *total = (wide_vec *)(totals[k] + part * LANES);
-            *total += __builtin_convertvector(of_chunk[k], wide_vec);
-            of_chunk[k] = broadcast(0.0);
-        }
-    }
-}
-#endif
-
-#if defined(MOR_SINGLE)
 /* Prefetches what is read of a cluster in double precision once the sums are known. */
 INLINE void ask_for_doubles(const mor_pair_arrays *arrays, int64_t cluster, const momentum_form form)
 {
@@ -609,6 +566,7 @@ void MOR_ISA_NAME(mor_pair_finish_momentum)(const double *totals, const mor_pair
     for (int part = 0; part < PARTS; ++part) {
         const int64_t first = cluster * MOR_CLUSTER + part * LANES;
         momentum_sums sums;
+        _Static_assert(sizeof momentum_powers == SUMS_OF(momentum_sums), "one power for each sum");
         take_totals(totals, momentum_powers, SUMS_OF(momentum_sums), c, part, (vec *)&sums);
         const vec soil = form.several ? load(arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE,
                                              MOR_PAIR_OF_SOIL_INDEX)

@@ -30,9 +30,10 @@ static packing open_packing(const mor_pair_constants *constants, mor_pair_single
 {
     const double unit = mor_pair_length_unit(constants->smoothing_length);
     mor_pair_single_arrays *out = &arrays->singles;
+    const double *extra = arrays->acceleration != NULL ? arrays->extra : NULL; /* for forces only */
     const copied all[N_ARRAYS] = {
         {arrays->records, &singles->records, &out->records, 1.0, MOR_RECORD_SIZE, MOR_RECORD_SIZE},
-        {arrays->extra, &singles->extra, &out->extra, 1.0, MOR_EXTRA_SIZE, MOR_EXTRA_SIZE},
+        {extra, &singles->extra, &out->extra, 1.0, MOR_EXTRA_SIZE, MOR_EXTRA_SIZE},
         {arrays->artificial_stress, &singles->artificial_stress, &out->artificial_stress, 1.0, 6, 6},
         {arrays->strain_rate, &singles->strain_rate, &out->strain_rate, unit, 6, MOR_PAIR_SINGLE_STRAIN},
         {arrays->of_soil, &singles->of_soil, &out->of_soil, 1.0, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE}};
@@ -153,11 +154,9 @@ void mor_pair_singles_clear(mor_context *context, mor_pair_singles *singles)
     singles->capacity = 0;
 }
 
-double mor_pair_singles_bytes(const mor_pair_arrays *arrays)
+double mor_pair_singles_bytes(bool has_extra, bool has_artificial_stress, bool has_strain_rate, bool has_soils)
 {
-    const int width = MOR_RECORD_SIZE + (arrays->extra != NULL ? MOR_EXTRA_SIZE : 0) +
-                      (arrays->artificial_stress != NULL ? 6 : 0) +
-                      (arrays->strain_rate != NULL ? MOR_PAIR_SINGLE_STRAIN : 0) +
-                      (arrays->of_soil != NULL ? MOR_PAIR_OF_SOIL_SIZE : 0);
+    const int width = MOR_RECORD_SIZE + has_extra * MOR_EXTRA_SIZE + has_artificial_stress * 6 +
+                      has_strain_rate * MOR_PAIR_SINGLE_STRAIN + has_soils * MOR_PAIR_OF_SOIL_SIZE;
     return width * (double)sizeof(float);
 }
