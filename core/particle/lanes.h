@@ -10,10 +10,23 @@
  *  Numbers in lanes, for loops over clusters of eight particles that are compiled once per instruction set. Only files
  *  named *_isa.c include it; MOR_ISA is the name of the set. Not for others: the names are short. */
 
+/* A file that defines MOR_SINGLE before it includes anything computes in single precision: real is its number, and
+ * bits an integer as wide. */
+#if defined(MOR_SINGLE)
+typedef float real;
+typedef int32_t bits;
+#else
+typedef double real;
+typedef int64_t bits;
+#endif
+
 /* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
- * that a particle's sums do not depend on the width. */
-#if defined(__AVX512F__)
+ * that a particle's sums do not depend on the width. Eight singles fill half of the widest register: a cluster has no
+ * more. */
+#if defined(__AVX512F__) || (defined(__AVX__) && defined(MOR_SINGLE))
 #define LANES 8
+#elif defined(MOR_SINGLE)
+#define LANES 4
 #elif defined(__AVX__)
 #define LANES 4
 #else
@@ -22,12 +35,12 @@
 enum { PARTS = MOR_CLUSTER / LANES };
 
 /** One number for each of LANES particles. */
-typedef double vec __attribute__((vector_size(LANES * sizeof(double))));
+typedef real vec __attribute__((vector_size(LANES * sizeof(real))));
 
 #define INLINE static inline __attribute__((always_inline))
 
 /** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
-INLINE vec load(const double *records, int stride, int component)
+INLINE vec load(const real *records, int stride, int component)
 {
     vec a;
     for (int lane = 0; lane < LANES; ++lane) {
@@ -37,7 +50,7 @@ INLINE vec load(const double *records, int stride, int component)
 }
 
 /** Writes the first n_lanes lanes to one component of records, shape [n_lanes, stride]; any unit. */
-INLINE void store(double *out, int stride, int component, int n_lanes, vec a)
+INLINE void store(real *out, int stride, int component, int n_lanes, vec a)
 {
     if (n_lanes == LANES) {
         /* Straight from the register, whose lanes a loop of unknown length would look up in memory. */

@@ -374,6 +374,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->at_wall);
     MOR_FREE(context, &soil->closed);
     MOR_FREE(context, &soil->extra);
+    mor_pair_singles_clear(context, &soil->singles);
     MOR_FREE(context, &soil->regularization);
     MOR_FREE(context, &soil->order);
     MOR_FREE(context, &soil->one_soil);
@@ -480,6 +481,10 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
     bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
+    bytes += soil->settings.scheme.precision != 1
+                 ? 0.0
+                 : padded * mor_pair_singles_bytes(soil->extra != NULL, soil->settings.scheme.artificial_stress,
+                                                   soil->settings.scheme.reconstruction == 1, soil->of_soil != NULL);
     bytes += soil->closed != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->extra != NULL ? padded * (double)MOR_EXTRA_SIZE * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);

@@ -10,6 +10,7 @@
 #include "core/particle/set.h"
 #include "core/sph/boundary/soil_contact.h"
 #include "core/sph/lanes/soil_lanes.h"
+#include "core/sph/pair/pair_single.h"
 #include "core/sph/settings/soil_settings.h"
 #include "core/sph/sleep/hold.h"
 #include "core/sph/soil_energy.h"
@@ -82,8 +83,9 @@ typedef struct mor_soil {
     double *continued;      /* shape [n_particles, 6]; what boundaries continue of them along themselves, 1; or NULL */
     int8_t *at_wall;        /* shape [clusters]; patches of boundaries whose points the lists hold, at most 2; 1 */
     double *extra;          /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
-    double *field_records;  /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
-    double *diffusion;      /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
+    mor_pair_singles singles; /* copies of what the pair loops read, with mixed precision; or zeroed */
+    double *field_records;    /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
+    double *diffusion;        /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
     mor_contact_corner *corners; /* shape [n_particles]; faces that each sees; NULL: no wall has normals */
     double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;        /* of reductions over particles */

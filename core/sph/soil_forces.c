@@ -51,6 +51,18 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
     }
 }
 
+/* Runs the loop for the precision asked for: by dimension - 2 in double and in mixed precision. */
+static mor_status run_in_precision(mor_context *context, mor_soil *soil, mor_pair_arrays *arrays,
+                                   const mor_pair_loop *in_double, const mor_pair_loop *mixed)
+{
+    const bool is_mixed = soil->settings.scheme.precision == 1;
+    MOR_TRY(context, !is_mixed
+                         ? MOR_OK
+                         : mor_pair_singles_pack(context, &soil->constants, &soil->images, &soil->singles, arrays));
+    mor_soil_run_pairs(context, &soil->constants, arrays, (is_mixed ? mixed : in_double)[soil->settings.dimension - 2]);
+    return MOR_OK;
+}
+
 /* Directs the kernel gradients over walls by the normals of their faces. */
 static void use_normals(mor_context *context, mor_soil *soil)
 {
@@ -147,8 +159,7 @@ static void set_diffusion(mor_context *context, mor_soil *soil, const mor_step *
 mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    const mor_soil_settings *s = &soil->settings;
-    const double gravity = mor_soil_gravity_part(soil, step) * mor_vector_length(s->gravity);
+    const double gravity = mor_soil_gravity_part(soil, step) * mor_vector_length(soil->settings.gravity);
     for (int k = 0; k < soil->n_kinds; ++k) {
         find_rest_gradient(&soil->kinds[k], gravity, soil->constants.gravity_direction,
                            soil->pair_soils[k].rest_gradient);
@@ -164,7 +175,7 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);
     mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
     set_diffusion(context, soil, step, arrays.stress_diffusion);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->momentum[s->dimension - 2]);
+    MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->momentum, soil->table->mixed_momentum));
     mor_hold_stop(&soil->hold, arrays.acceleration, 3);
     mor_hold_stop(&soil->hold, arrays.stress_diffusion, 6);
     mor_hold_stop(&soil->hold, arrays.hourglass_moment, 3);
@@ -208,7 +219,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
     arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->gradient[soil->settings.dimension - 2]);
+    MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->gradient, soil->table->mixed_gradient));
     mor_hold_stop(&soil->hold, arrays.hourglass_rate, 3);
     return MOR_OK;
 }

@@ -26,12 +26,22 @@ typedef struct soil_row {
 #define CASES MOR_SOURCE_DIR "/cases/"
 #define SOFT "soil[0].material.youngs_modulus=0.24 MPa"
 #define UNEVEN "lattice.jitter=0.2"
+#define MIXED "numerics.precision=mixed"
 #define MOVING "soil[0].velocity=('0.4 m/s', '0 m/s', '0 m/s')"
 
 static const soil_row rows[] = {
     {"soil-2d-16k", CASES "column-2d/case.cfg", {"spacing=1.118 mm", SOFT, UNEVEN, NULL}, 1000, 0, 7, true},
     {"soil-3d-25k", CASES "column-3d/case.cfg", {"spacing=5 mm", SOFT, UNEVEN, NULL}, 300, 0, 7, true},
     {"soil-3d-200k", CASES "column-3d/case.cfg", {"spacing=2.505 mm", SOFT, UNEVEN, NULL}, 150, 0, 3, true},
+    {"soil-2d-mixed", CASES "column-2d/case.cfg", {"spacing=1.118 mm", SOFT, UNEVEN, MIXED, NULL}, 1000, 0, 7, true},
+    {"soil-3d-25k-mixed", CASES "column-3d/case.cfg", {"spacing=5 mm", SOFT, UNEVEN, MIXED, NULL}, 300, 0, 7, true},
+    {"soil-3d-200k-mixed",
+     CASES "column-3d/case.cfg",
+     {"spacing=2.505 mm", SOFT, UNEVEN, MIXED, NULL},
+     150,
+     0,
+     3,
+     true},
     {"soil-3d-1m", CASES "column-3d/case.cfg", {"spacing=1.465 mm", SOFT, UNEVEN, MOVING, NULL}, 20, 20, 3, false},
     {"soil-3d-2m", CASES "column-3d/case.cfg", {"spacing=1.163 mm", SOFT, UNEVEN, MOVING, NULL}, 20, 20, 3, false},
 };

@@ -5,7 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/particle/kernel.h"
-#include "core/sph/pair/pair.h"
+#include "core/sph/pair/pair_single.h"
 #include "tests/common/cloud.h"
 
 #include <math.h>
@@ -45,6 +45,7 @@ typedef struct assembly {
     double artificial[6 * ASSEMBLY_MAX];                  /* shape [n padded to 8, 6], Pa */
     double strain_rate[6 * ASSEMBLY_MAX];                 /* shape [n padded to 8, 6], 1/s */
     bool has_reconstruction;                              /* strain_rate is handed to the loops */
+    bool is_mixed;                                        /* forces and gradients by the loops in mixed precision */
     int parts;                                            /* bits of ASSEMBLY_TRANSIENT and so on */
     mor_pair_soil soils[2];                               /* see assembly_split */
     double extra[MOR_EXTRA_SIZE * ASSEMBLY_MAX];          /* shape [n padded to 8, 16]; units of MOR_EXTRA_... */
@@ -353,28 +354,37 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
     const bool has_extra = a->parts & (ASSEMBLY_TRANSIENT | ASSEMBLY_HOURGLASS | ASSEMBLY_SPIN);
     const bool has_hourglass = a->constants.has_hourglass;
     const bool has_moments = a->parts & (ASSEMBLY_FIT | ASSEMBLY_SPIN);
-    const mor_pair_arrays arrays = {.n_particles = a->n,
-                                    .records = a->records,
-                                    .inner = &a->relation,
-                                    .artificial_stress = a->constants.has_artificial_stress ? a->artificial : NULL,
-                                    .acceleration = sums->acceleration,
-                                    .stress_diffusion = diffuses ? sums->stress_diffusion : NULL,
-                                    .velocity_gradient = sums->velocity_gradient,
-                                    .density_rate = sums->density_rate,
-                                    .regularization = sums->regularization,
-                                    .extra = has_extra ? extra : NULL,
-                                    .hourglass_rate = has_hourglass ? sums->hourglass_rate : NULL,
-                                    .hourglass_moment = has_hourglass ? sums->hourglass_moment : NULL,
-                                    .moments = has_moments ? sums->moments : NULL,
-                                    .of_soil = has_two_soils ? a->of_soil : NULL,
-                                    .one_soil = has_two_soils ? a->one_soil : NULL,
-                                    .strain_rate = a->has_reconstruction ? a->strain_rate : NULL};
+    mor_pair_arrays arrays = {.n_particles = a->n,
+                              .records = a->records,
+                              .inner = &a->relation,
+                              .artificial_stress = a->constants.has_artificial_stress ? a->artificial : NULL,
+                              .acceleration = sums->acceleration,
+                              .stress_diffusion = diffuses ? sums->stress_diffusion : NULL,
+                              .velocity_gradient = sums->velocity_gradient,
+                              .density_rate = sums->density_rate,
+                              .regularization = sums->regularization,
+                              .extra = has_extra ? extra : NULL,
+                              .hourglass_rate = has_hourglass ? sums->hourglass_rate : NULL,
+                              .hourglass_moment = has_hourglass ? sums->hourglass_moment : NULL,
+                              .moments = has_moments ? sums->moments : NULL,
+                              .of_soil = has_two_soils ? a->of_soil : NULL,
+                              .one_soil = has_two_soils ? a->one_soil : NULL,
+                              .strain_rate = a->has_reconstruction ? a->strain_rate : NULL};
     const int n_clusters = (int)a->tree.n_clusters;
     const int plane = a->constants.dimension - 2;
+    const mor_images none = {0};
+    mor_pair_singles singles = {0};
+    mor_context context;
+    mor_context_init(&context);
+    if (a->is_mixed) {
+        assert_int_equal(mor_pair_singles_pack(&context, &a->constants, &none, &singles, &arrays), MOR_OK);
+    }
+    const mor_pair_loop momentum = (a->is_mixed ? table->mixed_momentum : table->momentum)[plane];
+    const mor_pair_loop gradient = (a->is_mixed ? table->mixed_gradient : table->gradient)[plane];
     for (int first = 0; first < n_clusters; first += clusters) {
         const int last = first + clusters < n_clusters ? first + clusters : n_clusters;
-        table->momentum[plane](&a->constants, &arrays, first, last);
-        table->gradient[plane](&a->constants, &arrays, first, last);
+        momentum(&a->constants, &arrays, first, last);
+        gradient(&a->constants, &arrays, first, last);
         table->regularize(&a->constants, &arrays, first, last);
         const mor_pair_kernel_job job = {.source = a->records,
                                          .target = a->records,
@@ -383,6 +393,7 @@ static inline void assembly_run(const assembly *a, const mor_pair_table *table, 
                                          .sums = sums->kernel + first * MOR_CLUSTER * MOR_KERNEL_SUMS};
         table->kernel(&a->constants, &job, first, last);
     }
+    mor_pair_singles_clear(&context, &singles);
 }
 
 #endif

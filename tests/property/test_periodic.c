@@ -218,10 +218,11 @@ static uint64_t find_flow(const char *const *variant, const char *const *more, i
 /* Exact, though lists are built at other times, before and after particles go through a face. */
 static void flow_depends_neither_on_threads_nor_on_the_skin(void **state)
 {
-    static const char *const *const variants[] = {nothing, sliding_floor, summed, shifted};
+    static const char *const mixed[] = {"numerics.scheme=moraine", "numerics.precision=mixed", NULL};
+    static const char *const *const variants[] = {nothing, sliding_floor, summed, shifted, mixed};
     static const char *const skins[][2] = {{"numerics.skin_ratio=0", NULL}, {"numerics.skin_ratio=0.9", NULL}};
     (void)state;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < (int)(sizeof variants / sizeof *variants); ++k) {
         double crossings = 0.0;
         const uint64_t one = find_flow(variants[k], nothing, 1, &crossings);
         assert_true(crossings > 60.0); /* of 200 particles, or the test were none */

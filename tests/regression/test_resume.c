@@ -33,6 +33,7 @@ static const variant variants[] = {
      {"numerics.soil_hourglass=0.25", "numerics.stress_diffusion_limiter=transient", "numerics.wall_normals=geometry"},
      3},
     {"relaxed", {"soil[0].particles=relaxed", "lattice.jitter=0"}, 2},
+    {"mixed", {"numerics.scheme=moraine", "numerics.precision=mixed"}, 2},
     {"no_skin", {"numerics.skin_ratio=0", "lattice.jitter=0.2", "numerics.damping=5"}, 3},
 };
 

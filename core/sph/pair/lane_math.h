@@ -16,10 +16,10 @@
  *  include it; not for others: the names are short. */
 
 /** A mask for each of LANES particles: all bits or none. */
-typedef int64_t mask __attribute__((vector_size(LANES * sizeof(int64_t))));
+typedef bits mask __attribute__((vector_size(LANES * sizeof(bits))));
 
 /** Returns one number, any unit, in all lanes. */
-INLINE vec broadcast(double a)
+INLINE vec broadcast(real a)
 {
     return a - (vec){0.0};
 }
@@ -31,11 +31,15 @@ INLINE vec select_lanes(mask where, vec a, vec b)
 }
 
 /* The names of the instructions that fill a register, where there are any. */
-#if defined(__AVX512F__)
-#define WIDE(operation) _mm512_##operation
+#if defined(MOR_SINGLE) && defined(__AVX__) && defined(__FMA__)
+#define WIDE(operation) _mm256_##operation##_ps
+typedef __m256 wide;
+#elif defined(__AVX512F__)
+#define WIDE(operation) _mm512_##operation##_pd
 typedef __m512d wide;
+#define HAS_TRANSPOSE 1
 #elif defined(__AVX__) && defined(__FMA__)
-#define WIDE(operation) _mm256_##operation
+#define WIDE(operation) _mm256_##operation##_pd
 typedef __m256d wide;
 #endif
 
@@ -43,7 +47,7 @@ typedef __m256d wide;
 INLINE vec larger(vec a, vec b)
 {
 #if defined(WIDE)
-    return (vec)WIDE(max_pd)((wide)a, (wide)b);
+    return (vec)WIDE(max)((wide)a, (wide)b);
 #else
     return select_lanes(a > b, a, b);
 #endif
@@ -53,7 +57,7 @@ INLINE vec larger(vec a, vec b)
 INLINE vec smaller(vec a, vec b)
 {
 #if defined(WIDE)
-    return (vec)WIDE(min_pd)((wide)a, (wide)b);
+    return (vec)WIDE(min)((wide)a, (wide)b);
 #else
     return select_lanes(a < b, a, b);
 #endif
@@ -64,7 +68,7 @@ INLINE vec square_root(vec a)
 {
     vec root;
     for (int lane = 0; lane < LANES; ++lane) {
-        root[lane] = sqrt(a[lane]);
+        root[lane] = sizeof(real) == sizeof(float) ? (real)sqrtf((float)a[lane]) : (real)sqrt(a[lane]);
     }
     return root;
 }
@@ -76,7 +80,7 @@ INLINE int lanes_of(int64_t first, int64_t n_particles)
     return left < LANES ? (left > 0 ? (int)left : 0) : LANES;
 }
 
-#if LANES == 8
+#if defined(HAS_TRANSPOSE)
 /** Returns a pointer whose rows the compiler addresses from it, and not each by a register of its own.
  *  @param records [in]  shape [8, any stride], any unit */
 INLINE const double *as_base(const double *records)
@@ -106,7 +110,7 @@ INLINE void transpose(const __m512d *rows, __m512d *columns)
 }
 #endif
 
-#if LANES == 8
+#if defined(HAS_TRANSPOSE)
 /** Writes the first n numbers of a register to out, shape [n], any unit, by stores of whole words: a load that follows
  *  waits for a masked store that it overlaps, even where the mask is empty. */
 INLINE void store_row(double *out, const int n, __m512d row)
@@ -131,11 +135,43 @@ INLINE void store_row(double *out, const int n, __m512d row)
 }
 #endif
 
+#if defined(MOR_SINGLE) && defined(__AVX__)
+/** Exchanges rows and columns, both shape [8, 8], any unit; columns that nobody reads cost nothing. */
+INLINE void transpose_singles(const __m256 *rows, __m256 *columns)
+{
+    for (int half = 0; half < 2; ++half) {
+        __m256 pairs[4]; /* rows k and k + 4 in the halves of a register */
+        for (int k = 0; k < 4; ++k) {
+            pairs[k] = half ? _mm256_permute2f128_ps(rows[k], rows[k + 4], 0x31)
+                            : _mm256_insertf128_ps(rows[k], _mm256_castps256_ps128(rows[k + 4]), 1);
+        }
+        const __m256 low01 = _mm256_unpacklo_ps(pairs[0], pairs[1]);
+        const __m256 low23 = _mm256_unpacklo_ps(pairs[2], pairs[3]);
+        const __m256 high01 = _mm256_unpackhi_ps(pairs[0], pairs[1]);
+        const __m256 high23 = _mm256_unpackhi_ps(pairs[2], pairs[3]);
+        columns[4 * half] = _mm256_shuffle_ps(low01, low23, 0x44);
+        columns[4 * half + 1] = _mm256_shuffle_ps(low01, low23, 0xee);
+        columns[4 * half + 2] = _mm256_shuffle_ps(high01, high23, 0x44);
+        columns[4 * half + 3] = _mm256_shuffle_ps(high01, high23, 0xee);
+    }
+}
+#endif
+
 /** Reads the first n components, at most 8, of consecutive records, shape [LANES, stride], any unit, into out,
  *  shape [n]. */
-INLINE void load_first(const double *records, int stride, const int n, vec *out)
+INLINE void load_first(const real *records, int stride, const int n, vec *out)
 {
-#if LANES == 8
+#if defined(MOR_SINGLE) && defined(__AVX__)
+    __m256 rows[8];
+    __m256 columns[8];
+    for (int lane = 0; lane < 8; ++lane) {
+        rows[lane] = _mm256_loadu_ps(records + lane * stride);
+    }
+    transpose_singles(rows, columns);
+    for (int a = 0; a < n; ++a) {
+        out[a] = (vec)columns[a];
+    }
+#elif defined(HAS_TRANSPOSE)
     __m512d rows[8];
     __m512d columns[8];
     const double *base = as_base(records);
@@ -155,9 +191,9 @@ INLINE void load_first(const double *records, int stride, const int n, vec *out)
 
 /** Writes the first n_lanes lanes of a, shape [n], any unit, to the first n components, at most 8, of consecutive
  *  records, shape [n_lanes, stride]. */
-INLINE void store_first(double *records, int stride, const int n, int n_lanes, const vec *a)
+INLINE void store_first(real *records, int stride, const int n, int n_lanes, const vec *a)
 {
-#if LANES == 8
+#if defined(HAS_TRANSPOSE)
     __m512d columns[8];
     __m512d rows[8];
     for (int k = 0; k < 8; ++k) {

@@ -6,6 +6,7 @@
 #include "core/base/math.h"
 #include "core/particle/relation.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -116,6 +117,34 @@ typedef struct mor_pair_constants {
     double shift_diameter;       /* of the sphere (disc) with a particle's volume, m */
 } mor_pair_constants;
 
+/* Singles from one strain rate to the next: half a cache line. */
+enum { MOR_PAIR_SINGLE_STRAIN = 8 };
+
+/** What the loops in single precision read of particles, packed by mor_pair_singles_pack; borrowed. Places are
+ *  integers, see mor_pair_length_unit, volumes in mor_pair_volume_unit, strain rates in m/s per length unit. */
+typedef struct mor_pair_single_arrays {
+    const float *records;           /* shape [n padded to 8, 16]; order of MOR_RECORD_... */
+    const float *extra;             /* shape [n padded to 8, 16]; order and units of MOR_EXTRA_...; NULL without */
+    const float *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
+    const float *strain_rate;       /* shape [n padded to 8, MOR_PAIR_SINGLE_STRAIN]; NULL: no reconstruction */
+    const float *of_soil; /* shape [n padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one soil */
+} mor_pair_single_arrays;
+
+/** Returns the unit of places and lengths in single precision, m: a power of two between h 2^-23 and h 2^-22. Places
+ *  are rounded to it and kept modulo 2^32, so that differences of places up to 512 h apart come out exactly, and those
+ *  within the support are exact as singles, too.
+ *  @param h [in]  smoothing length, m */
+static inline double mor_pair_length_unit(double h)
+{
+    return ldexp(1.0, ilogb(h) - 22);
+}
+
+/** Returns the unit of volumes in single precision, m3 (m2): a power of two, about h^3 (h^2). */
+static inline double mor_pair_volume_unit(double h, int dimension)
+{
+    return ldexp(1.0, dimension * ilogb(h));
+}
+
 /** Arrays of one set for the pair loops; borrowed. */
 typedef struct mor_pair_arrays {
     int64_t n_particles;
@@ -138,6 +167,7 @@ typedef struct mor_pair_arrays {
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
     const int8_t *asleep;      /* shape [blocks of 32 clusters]; not 0: whoever runs a loop leaves them out, with zeros;
                                 * NULL: none */
+    mor_pair_single_arrays singles; /* for the loops in mixed precision only */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,
@@ -245,9 +275,11 @@ typedef void (*mor_pair_share_loop)(const mor_pair_constants *constants, const m
 
 /** The routines of one instruction set. Static, shared. */
 typedef struct mor_pair_table {
-    const char *instruction_set;   /* "avx512", "avx2", "baseline" */
-    mor_pair_loop momentum[2];     /* by dimension - 2: acceleration and stress diffusion, eqs. 25, 27 */
-    mor_pair_loop gradient[2];     /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
+    const char *instruction_set;     /* "avx512", "avx2", "baseline" */
+    mor_pair_loop momentum[2];       /* by dimension - 2: acceleration and stress diffusion, eqs. 25, 27 */
+    mor_pair_loop gradient[2];       /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
+    mor_pair_loop mixed_momentum[2]; /* the same in mixed precision: pairs in single, sums and the rest in double */
+    mor_pair_loop mixed_gradient[2];
     mor_pair_loop regularize;      /* XSPH and shifting sums, Hu et al. (2021) eqs. 13, 16 */
     mor_pair_kernel_loop kernel;   /* kernel sums */
     mor_pair_tangent_loop tangent; /* stress divergence along and across a wall */

@@ -19,7 +19,7 @@
 INLINE vec multiply_add(vec a, vec b, vec c)
 {
 #if defined(WIDE)
-    return (vec)WIDE(fmadd_pd)((wide)a, (wide)b, (wide)c);
+    return (vec)WIDE(fmadd)((wide)a, (wide)b, (wide)c);
 #else
     return a * b + c;
 #endif
@@ -32,9 +32,11 @@ INLINE vec positive_part(vec a)
 }
 
 /** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
-INLINE int any_less(vec a, double b)
+INLINE int any_less(vec a, real b)
 {
-#if defined(__AVX512F__)
+#if defined(MOR_SINGLE) && defined(__AVX__)
+    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, _mm256_set1_ps(b), _CMP_LT_OQ));
+#elif defined(__AVX512F__)
     return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ);
 #elif defined(__AVX__)
     return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ));
@@ -50,22 +52,41 @@ INLINE int any_less(vec a, double b)
 /** Returns the absolute values; any unit. */
 INLINE vec magnitude(vec a)
 {
-    return (vec)((mask)a & INT64_MAX);
+    return (vec)((mask)a & (sizeof(bits) == sizeof(int64_t) ? (bits)INT64_MAX : (bits)INT32_MAX));
 }
 
-/** Where a cluster is and the constants of the kernel. */
+#if defined(MOR_SINGLE)
+/* In single precision a place is an integer number of the units of mor_pair_length_unit, modulo 2^32, and lengths in
+ * the loops are in that unit; volumes are in the power of mor_pair_volume_unit. */
+typedef mask places;
+#else
+typedef vec places;
+#endif
+
+/** Where a cluster is and the constants of the kernel. Lengths are in m; in single precision in the unit of places. */
 typedef struct frame {
-    vec x[3];
-    double half_inverse_h; /* 1 / (2 h), 1/m */
-    double tiny;           /* m2; added to squared distances so that nothing divides by zero; vanishes beside h^2 */
+    places x[3];
+    real half_inverse_h; /* 1 / (2 h) */
+    real tiny;           /* added to squared distances so that nothing divides by zero; vanishes beside h^2 */
+    real core2;          /* (0.1 h)^2, that of stress diffusion */
 } frame;
 
 /** Returns where the cluster is whose first record is given, shape [8, stride], unit m. */
-INLINE frame frame_of(const mor_pair_constants *constants, const double *records, int stride)
+INLINE frame frame_of(const mor_pair_constants *constants, const real *records, int stride)
 {
+#if defined(MOR_SINGLE)
+    const double h = constants->smoothing_length / mor_pair_length_unit(constants->smoothing_length);
+    frame f = {.half_inverse_h = (real)(0.5 / h), .tiny = (real)(h * h * 0x1p-46), .core2 = (real)(0.01 * h * h)};
+    vec at[3];
+    load_first(records, stride, 3, at);
+    for (int a = 0; a < 3; ++a) {
+        f.x[a] = (mask)at[a];
+    }
+#else
     const double h = constants->smoothing_length;
-    frame f = {.half_inverse_h = 0.5 / h, .tiny = h * h * 0x1p-100};
+    frame f = {.half_inverse_h = 0.5 / h, .tiny = h * h * 0x1p-100, .core2 = 0.01 * h * h};
     load_first(records, stride, 3, f.x);
+#endif
     return f;
 }
 
@@ -93,15 +114,35 @@ typedef struct geometry {
 /** That of a chunk, shape [CHUNK] each, units as above. Each number has an array of its own: those that a loop does not
  *  need take no room in the nearest cache. */
 typedef struct geometries {
-    vec distance[CHUNK], k[CHUNK], distance2[CHUNK];
+    vec distance[CHUNK], k[CHUNK];
+#if defined(MOR_SINGLE)
+    struct {
+        vec r[3], distance2;
+    } kept[CHUNK]; /* integers cost more to separate than these to read */
+#else
+    vec distance2[CHUNK];
+#endif
 } geometries;
 
-/** Returns the vector from a target, shape [3], unit m, to the particles of a frame. */
-INLINE void separate(vec *r, const frame *f, const double *target, const int dimension)
+/** Returns places less one coordinate of a target: exact where they are within the support. */
+INLINE vec away_from(places x, const real *target)
 {
-    r[0] = f->x[0] - target[0];
-    r[1] = f->x[1] - target[1];
-    r[2] = dimension == 3 ? f->x[2] - target[2] : broadcast(0.0);
+#if defined(MOR_SINGLE)
+    typedef uint32_t turns __attribute__((vector_size(LANES * sizeof(uint32_t)))); /* wraps around */
+    uint32_t at;
+    memcpy(&at, target, sizeof at);
+    return __builtin_convertvector((mask)((turns)x - at), vec);
+#else
+    return x - *target;
+#endif
+}
+
+/** Returns the vector from a target, shape [3], to the particles of a frame. */
+INLINE void separate(vec *r, const frame *f, const real *target, const int dimension)
+{
+    r[0] = away_from(f->x[0], target);
+    r[1] = away_from(f->x[1], target + 1);
+    r[2] = dimension == 3 ? away_from(f->x[2], target + 2) : broadcast(0.0);
 }
 
 /** Returns its squared length, padded so that nothing divides by zero, unit m2. */
@@ -113,7 +154,7 @@ INLINE vec squared(const vec *r, const frame *f, const int dimension)
 }
 
 /** Returns the separation from a target, shape [3], unit m, as seen from a frame. */
-INLINE pair pair_of(const frame *f, const double *target, const int dimension)
+INLINE pair pair_of(const frame *f, const real *target, const int dimension)
 {
     pair p;
     separate(p.r, f, target, dimension);
@@ -123,15 +164,49 @@ INLINE pair pair_of(const frame *f, const double *target, const int dimension)
     return p;
 }
 
+/** Keeps the separation of target q of a chunk and its squared length, in single precision. */
+INLINE void keep_separation(geometries *g, int q, const vec *r, vec distance2, const int dimension)
+{
+#if defined(MOR_SINGLE)
+    for (int a = 0; a < dimension; ++a) {
+        g->kept[q].r[a] = r[a];
+    }
+    g->kept[q].distance2 = distance2;
+#else
+    (void)g, (void)q, (void)r, (void)distance2, (void)dimension;
+#endif
+}
+
+/** Finds that separation again, from a target, shape [3], or as it was kept. */
+INLINE void separation_at(vec *r, const geometries *g, int q, const frame *f, const real *target, const int dimension)
+{
+#if defined(MOR_SINGLE)
+    (void)f, (void)target;
+    for (int a = 0; a < 3; ++a) {
+        r[a] = a < dimension ? g->kept[q].r[a] : broadcast(0.0);
+    }
+#else
+    (void)g, (void)q;
+    separate(r, f, target, dimension);
+#endif
+}
+
 /** Finds the geometry of target q of a chunk, shape [MOR_RECORD_SIZE], units of MOR_RECORD_..., and the lanes of a
- *  frame; with_square: distance2, too. */
-INLINE void find_geometry(geometries *g, int q, const double *target, const frame *f, const int dimension,
+ *  frame; with_square: distance2, too. In single precision the separation is kept already. */
+INLINE void find_geometry(geometries *g, int q, const real *target, const frame *f, const int dimension,
                           const int with_square)
 {
+#if defined(MOR_SINGLE)
+    (void)dimension, (void)with_square;
+    pair p;
+    p.distance = square_root(g->kept[q].distance2);
+    p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
+#else
     const pair p = pair_of(f, target, dimension);
     if (with_square) {
         g->distance2[q] = p.distance2;
     }
+#endif
     g->distance[q] = p.distance;
     g->k[q] = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
 }
@@ -139,27 +214,48 @@ INLINE void find_geometry(geometries *g, int q, const double *target, const fram
 /** Returns what was found of target q. */
 INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
 {
-    return (geometry){with_square ? g->distance2[q] : broadcast(0.0), g->distance[q], g->k[q]};
+#if defined(MOR_SINGLE)
+    const vec *distance2 = &g->kept[q].distance2;
+#else
+    const vec *distance2 = &g->distance2[q];
+#endif
+    return (geometry){with_square ? *distance2 : broadcast(0.0), g->distance[q], g->k[q]};
 }
 
+/* What the loops read, in doubles or in singles. */
+#if defined(MOR_SINGLE)
+#define READ(array) (arrays->singles.array)
+#else
+#define READ(array) (arrays->array)
+#endif
+
 /** Returns the record of a target, shape [MOR_RECORD_SIZE], units of MOR_RECORD_.... */
-INLINE const double *target_of(const mor_pair_arrays *arrays, int32_t j)
+INLINE const real *target_of(const mor_pair_arrays *arrays, int32_t j)
 {
-    return arrays->records + (int64_t)j * MOR_RECORD_SIZE;
+    return READ(records) + (int64_t)j * MOR_RECORD_SIZE;
 }
 
 /** Returns what the momentum loop reads of a target beside its record, shape [MOR_EXTRA_SIZE], units of
  *  MOR_EXTRA_.... */
-INLINE const double *extra_of(const mor_pair_arrays *arrays, int32_t j)
+INLINE const real *extra_of(const mor_pair_arrays *arrays, int32_t j)
 {
-    return arrays->extra + (int64_t)j * MOR_EXTRA_SIZE;
+    return READ(extra) + (int64_t)j * MOR_EXTRA_SIZE;
+}
+
+/** Numbers from one strain rate to the next. */
+enum { STRAIN_SIZE = sizeof(real) == sizeof(float) ? MOR_PAIR_SINGLE_STRAIN : 6 };
+
+/** Returns the strain rate of a target, shape [6], 1/s; in single precision in the unit of its array. */
+INLINE const real *strain_rate_of(const mor_pair_arrays *arrays, int64_t j)
+{
+    return READ(strain_rate) + j * STRAIN_SIZE;
 }
 
 /** Returns what is read of a target beside its record, shape [MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL with one
  *  soil. */
-INLINE const double *of_soil_of(const mor_pair_arrays *arrays, int32_t j, const int several)
+INLINE const real *of_soil_of(const mor_pair_arrays *arrays, int32_t j, const int several)
 {
-    return several ? arrays->of_soil + (int64_t)j * MOR_PAIR_OF_SOIL_SIZE : NULL;
+    return several ? READ(of_soil) + (int64_t)j * MOR_PAIR_OF_SOIL_SIZE : NULL;
 }
 
 /** Returns one past the last cluster, 1, of a run that is summed in one way, and finds the constants of that run.
@@ -210,12 +306,60 @@ INLINE vec dot_r(const pair *p, vec a, vec b, vec c, const int dimension)
     return dimension == 3 ? multiply_add(c, p->r[2], sum) : sum;
 }
 
-/** Finds acceleration and stress diffusion of a range of clusters in plane strain. See mor_pair_table. */
+/** Returns the number of the sums of one lane of a cluster that a loop in single precision adds in double. */
+#define SUMS_OF(struct_of_sums) ((int)(sizeof(struct_of_sums) / sizeof(vec)))
+
+#if !defined(MOR_SINGLE)
+/** Takes the sums of a part of a cluster from those of the loop in single precision.
+ *  @param totals [in]   shape [n, 8]; units of the loops in single precision
+ *  @param powers [in]   shape [n]; of the unit of lengths in them, beside that of a volume
+ *  @param n      [in]   number of sums
+ *  @param c      [in]   of the set
+ *  @param part   [in]   which LANES of the eight
+ *  @param sums   [out]  shape [n]; SI units */
+INLINE void take_totals(const double *totals, const signed char *powers, const int n, const mor_pair_constants *c,
+                        int part, vec *sums)
+{
+    const double unit = mor_pair_length_unit(c->smoothing_length);
+    const double volume = mor_pair_volume_unit(c->smoothing_length, c->dimension);
+    typedef double unaligned __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
+    const double scales[3] = {volume, volume * unit, volume * unit * unit};
+    for (int k = 0; k < n; ++k) {
+        sums[k] = *(const unaligned *)(totals + k * MOR_CLUSTER + part * LANES) * scales[powers[k]];
+    }
+}
+#endif
+
+/* The loops of a precision: mor_pair_momentum_2d_avx2, mor_pair_mixed_momentum_2d_avx2, and so on. */
+#if defined(MOR_SINGLE)
+#define LOOP_NAME(name) MOR_ISA_NAME(mor_pair_mixed_##name)
+#else
+#define LOOP_NAME(name) MOR_ISA_NAME(mor_pair_##name)
+#endif
+/** Finds acceleration and stress diffusion of clusters in plane strain. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
                                         int64_t last);
-/** Likewise in three dimensions. */
+/** Finds acceleration and stress diffusion of clusters in space. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
                                         int64_t last);
+/** As mor_pair_momentum_2d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
+/** As mor_pair_momentum_3d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
+/** Finds velocity gradient and density rate of clusters in plane strain. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_gradient_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** Finds velocity gradient and density rate of clusters in space. See mor_pair_table. */
+void MOR_ISA_NAME(mor_pair_gradient_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                        int64_t last);
+/** As mor_pair_gradient_2d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_gradient_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
+/** As mor_pair_gradient_3d, pairs in single precision. */
+void MOR_ISA_NAME(mor_pair_mixed_gradient_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
+                                              int64_t last);
 /** Finds kernel sums over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
                                    int64_t last);

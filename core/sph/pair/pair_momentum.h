@@ -5,6 +5,9 @@
 
 #include "core/sph/pair/pair_lanes.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 /** @file
  *  What the momentum loop sums, and what is found from its sums. For pair_momentum_isa.c only. */
 
@@ -42,6 +45,73 @@ typedef struct momentum_sums {
     vec lever[3];         /* sum k m r; with several soils */
 } momentum_sums;
 
+/** Powers of the unit of lengths in them, beside that of a volume, where the loop is in single precision. */
+static const signed char momentum_powers[] = {1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1,
+                                              1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1};
+
+/** Whether a copy of the loop finds sum k of momentum_sums. */
+INLINE bool has_sum(const int k, const momentum_form form)
+{
+    const int first_spread = offsetof(momentum_sums, spread_stress) / sizeof(vec);
+    const int first_mean = offsetof(momentum_sums, spread_mean) / sizeof(vec);
+    const int first_extra = offsetof(momentum_sums, stiffness) / sizeof(vec);
+    const int first_several = offsetof(momentum_sums, lever) / sizeof(vec);
+    if (k < first_spread) {
+        return form.dimension == 3 || k % 3 < 2;
+    }
+    if (k < first_extra) {
+        return form.diffuses && (k < first_mean || form.extra);
+    }
+    return form.extra && (k < first_several || form.several);
+}
+
+/** Copies those sums, one by one, so that they stay in registers. */
+INLINE void copy_sums(momentum_sums *to, const momentum_sums *from, const momentum_form form)
+{
+    for (int a = 0; a < form.dimension; ++a) {
+        to->force[a] = from->force[a];
+        to->weight[a] = from->weight[a];
+        to->spread_way[a] = form.diffuses ? from->spread_way[a] : broadcast(0.0);
+        to->hourglass[a] = form.extra ? from->hourglass[a] : broadcast(0.0);
+        to->lever[a] = form.extra && form.several ? from->lever[a] : broadcast(0.0);
+    }
+    for (int a = 0; a < 6 && form.diffuses; ++a) {
+        to->spread_stress[a] = from->spread_stress[a];
+        to->spread_mean[a] = form.extra ? from->spread_mean[a] : broadcast(0.0);
+    }
+    to->spread_weight = form.diffuses ? from->spread_weight : broadcast(0.0);
+    to->spread_rest = form.diffuses && form.extra ? from->spread_rest : broadcast(0.0);
+    to->stiffness = form.extra ? from->stiffness : broadcast(0.0);
+}
+
+#if defined(MOR_SINGLE)
+/** Adds the sums of a chunk to those in double precision, and starts them anew.
+ *  @param totals [in,out]  shape [SUMS_OF(momentum_sums), 8]; units of the loop in single precision
+ *  @param sums   [in,out]  one object; zero afterwards
+ *  @param part   [in]      of the cluster
+ *  @param form   [in]      of the copy */
+INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const int part, const momentum_form form)
+{
+    typedef double wide_vec __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
+    vec *of_chunk = (vec *)sums;
+    for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
+        if (has_sum(k, form)) {
+            wide_vec *total = (wide_vec *)(totals[k] + part * LANES);
+            *total += __builtin_convertvector(of_chunk[k], wide_vec);
+            of_chunk[k] = broadcast(0.0);
+        }
+    }
+}
+#endif
+
+/** Writes what the sums of the loop in single precision give, by the routine of the loop in double precision.
+ *  @param totals  [in]  shape [SUMS_OF(momentum_sums), 8]; units of the loop
+ *  @param cluster [in]  which
+ *  @param form    [in]  of the copy of the loop */
+void MOR_ISA_NAME(mor_pair_finish_momentum)(const double *totals, const mor_pair_constants *c,
+                                            const mor_pair_arrays *arrays, int64_t cluster, momentum_form form);
+
+#if !defined(MOR_SINGLE)
 /** The constants of stress diffusion, lane by lane. */
 typedef struct diffusion {
     vec rate; /* m2/s */
@@ -165,5 +235,6 @@ INLINE void momentum_finish(const momentum_sums *m, const mor_pair_constants *c,
                          arrays->stress_diffusion + first * 6, n_lanes);
     }
 }
+#endif
 
 #endif

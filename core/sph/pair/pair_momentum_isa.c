@@ -1,13 +1,22 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The momentum loop. Compiled once per instruction set; MOR_ISA is its name. */
+/* The momentum loop. Compiled once per instruction set and precision; MOR_ISA is the name of the set, MOR_SINGLE is
+ * defined for single precision. */
 #include "core/sph/pair/pair_momentum.h"
 
-/* Relative motion times distance below which nothing moves, m2/s: far below rounding, far above the smallest number. */
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Relative motion times distance below which nothing moves, m/s times the unit of lengths: far below rounding, far
+ * above the smallest number. */
+#if defined(MOR_SINGLE)
+#define LEAST_MOTION 1.0e-20F
+#else
 #define LEAST_MOTION 1.0e-200
+#endif
 
 /* Minus twice the closing speed that smooth motion explains, times the distance: r . (D_i + D_j) r. */
-INLINE vec smooth_closing(const pair *p, const vec *own, const double *other, const int dimension)
+INLINE vec smooth_closing(const pair *p, const vec *own, const real *other, const int dimension)
 {
     vec d[6];
     for (int a = 0; a < 6; ++a) {
@@ -35,7 +44,7 @@ typedef struct shears {
 } shears;
 
 /* Those of a target; with a skew part zx is twice that without less xz. */
-INLINE shears shears_of(const double *stress, const double *extra, const momentum_form form)
+INLINE shears shears_of(const real *stress, const real *extra, const momentum_form form)
 {
     shears t;
     for (int a = 0; a < 3; ++a) {
@@ -49,7 +58,7 @@ INLINE shears shears_of(const double *stress, const double *extra, const momentu
     return t;
 }
 
-INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const double *s, const shears *t,
+INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const real *s, const shears *t,
                        const int dimension)
 {
     const vec kr[3] = {k * p->r[0], k * p->r[1], k * p->r[2]};
@@ -106,8 +115,8 @@ INLINE momentum_pair pair_at(const momentum_pairs *pairs, int q, const momentum_
     return it;
 }
 
-INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *it, const double *s,
-                          const double *extra, const momentum_form form)
+INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *it, const real *s, const real *extra,
+                          const momentum_form form)
 {
     for (int a = 0; a < 6; ++a) {
         m->spread_stress[a] += it->kd * s[a];
@@ -127,13 +136,13 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
 /* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension.
  *  own: shape [6], Pa */
 INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const vec *own,
-                           const double *other, const int dimension)
+                           const real *other, const int dimension)
 {
     vec ratio = p->reach * p->reach;
-    ratio = ratio * ratio * (4.0 * (1.0 - p->reach) + 1.0) * (c->kernel_normalization / c->spacing_kernel);
+    ratio = ratio * ratio * (4.0 * (1.0 - p->reach) + 1.0) * (real)(c->kernel_normalization / c->spacing_kernel);
     vec power;
     for (int lane = 0; lane < LANES; ++lane) {
-        power[lane] = ratio[lane] > 0.0 ? pow(ratio[lane], c->artificial_exponent) : 0.0;
+        power[lane] = ratio[lane] > 0.0 ? (real)pow(ratio[lane], c->artificial_exponent) : (real)0.0;
     }
     vec s[6];
     for (int a = 0; a < 6; ++a) {
@@ -148,20 +157,38 @@ INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_const
 
 /* The stiffness between two soils, the harmonic mean, over the own one. Exactly 1 in one soil, so that what a cluster
  * lists beyond its reach does not change the rounding of its sums. */
-INLINE vec relative_stiffness(vec own, double other)
+INLINE vec relative_stiffness(vec own, real other)
 {
     const vec sum = own + other;
-    return select_lanes(sum > 0.0, 2.0 * other / sum, broadcast(0.0));
+    return select_lanes(sum > 0.0, (real)(2.0 * other) / sum, broadcast(0.0));
 }
 
-INLINE void find_extra(momentum_pair *it, const geometry *g, const double *target, const momentum *m, const frame *f,
-                       const mor_pair_constants *c, const double *strain_rate, const double *of_soil,
-                       const double *extra, const momentum_form form)
+/* Weights of stress diffusion; moved: how far the pair moves on the scale of the limiter, 1. */
+INLINE void find_diffusion(momentum_pair *it, const geometry *g, const momentum *m, const frame *f,
+                           const mor_pair_constants *c, vec moved, const real *of_soil, const real *extra,
+                           const momentum_form form)
+{
+    it->kd = g->k * g->distance2 / (g->distance2 + f->core2);
+    if (form.diffuses == 2 || (form.extra && c->has_limited_diffusion && !c->has_transient)) {
+        it->kd *= smaller(moved, broadcast(1.0));
+    }
+    if (form.several) {
+        /* Stress jumps where soils meet, and must not spread across. */
+        it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
+    }
+    if (form.extra) {
+        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
+        it->rest = c->has_transient ? rest : broadcast(0.0);
+    }
+}
+
+INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const real *target, const momentum *m,
+                       const frame *f, const mor_pair_constants *c, const real *strain_rate, const real *of_soil,
+                       const real *extra, const momentum_form form)
 {
     const vec *v = m->v;
     pair p;
-    separate(p.r, f, target, form.dimension);
-    const double h = c->smoothing_length;
+    memcpy(p.r, r, sizeof p.r);
     const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
     const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
     /* Division is slow: all quotients share one. */
@@ -180,7 +207,8 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
         share = jump * (inverse_of_all * divisor);
     }
     /* Closing speed on which the limiter acts, eq. 23. */
-    const vec limiter_rate = form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast(c->limiter_rate);
+    const vec limiter_rate =
+        form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast((real)c->limiter_rate);
     const vec slope = closing * limiter_rate;
     const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
     vec limited = smaller(counted, broadcast(1.0)) * closing;
@@ -197,26 +225,16 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const double *targe
     const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
     it->extra = multiply_add(dissipation, limited, pressures) * (inverse * g->distance);
     if (form.diffuses) {
-        it->kd = g->k * g->distance2 / (g->distance2 + 0.01 * h * h);
-    }
-    if (form.diffuses == 2 || (form.diffuses && form.extra && c->has_limited_diffusion && !c->has_transient)) {
-        it->kd *= smaller(magnitude(speed) * limiter_rate, broadcast(1.0));
-    }
-    if (form.diffuses && form.several) {
-        /* Stress jumps where soils meet, and must not spread across. */
-        it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
-    }
-    if (form.diffuses && form.extra) {
-        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
-        it->rest = c->has_transient ? rest : broadcast(0.0);
+        find_diffusion(it, g, m, f, c, magnitude(speed) * limiter_rate, of_soil, extra, form);
     }
     if (form.extra && form.several) {
-        it->stiffness = relative_stiffness(m->stiffness, c->soils[(int)of_soil[MOR_PAIR_OF_SOIL_INDEX]].hourglass);
+        it->stiffness =
+            relative_stiffness(m->stiffness, (real)c->soils[(int)of_soil[MOR_PAIR_OF_SOIL_INDEX]].hourglass);
     }
 }
 
 /* The hourglass control: forces between particles that are displaced unlike, whichever way they lie. */
-INLINE void add_hourglass(momentum_sums *m, const pair *p, vec k, vec stiffness, const double *d,
+INLINE void add_hourglass(momentum_sums *m, const pair *p, vec k, vec stiffness, const real *d,
                           const momentum_form form)
 {
     const vec km = form.several ? k * stiffness : k;
@@ -232,11 +250,11 @@ INLINE void add_hourglass(momentum_sums *m, const pair *p, vec k, vec stiffness,
     }
 }
 
-INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const double *target,
-                     const double *extra, const frame *f, const momentum_form form)
+INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *g, const vec *r, const real *target,
+                     const real *extra, const momentum_form form)
 {
     pair p;
-    separate(p.r, f, target, form.dimension);
+    memcpy(p.r, r, sizeof p.r);
     const shears t = shears_of(target + MOR_RECORD_STRESS, extra, form);
     add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, &t, form.dimension);
     if (form.extra) {
@@ -264,16 +282,16 @@ INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, c
     vec own[6];
     vec size = broadcast(0.0);
     for (int a = 0; a < 6; ++a) {
-        own[a] = load(arrays->artificial_stress + part->first * 6, 6, a);
+        own[a] = load(READ(artificial_stress) + part->first * 6, 6, a);
         size -= magnitude(own[a]);
     }
     const bool has_own = any_less(size, 0.0);
     for (int q = 0; q < n; ++q) {
-        const double *other = arrays->artificial_stress + (int64_t)near[q] * 6;
+        const real *other = READ(artificial_stress) + (int64_t)near[q] * 6;
         if (has_own || other[MOR_XX] != 0.0 || other[MOR_YY] != 0.0 || other[MOR_ZZ] != 0.0) {
             const geometry g = geometry_at(chunk, q, 0);
             pair p;
-            separate(p.r, f, target_of(arrays, near[q]), form.dimension);
+            separation_at(p.r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
             p.reach = positive_part(1.0 - g.distance * f->half_inverse_h);
             add_artificial(&part->sums, &p, c, g.k, own, other, form.dimension);
         }
@@ -296,9 +314,10 @@ static const adder artificial_adders[2] = {artificial_2d, artificial_3d};
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
 {
-    const double *own = arrays->records + first * MOR_RECORD_SIZE;
+    const real *own = READ(records) + first * MOR_RECORD_SIZE;
     momentum *m = &part->own;
-    memset(part, 0, sizeof *part);
+    memset(m, 0, sizeof *m);
+    memset(&part->sums, 0, sizeof part->sums);
     part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
@@ -307,21 +326,21 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     load_first(own + MOR_RECORD_VELOCITY, MOR_RECORD_SIZE, 4, motion);
     memcpy(m->v, motion, sizeof m->v);
     m->impedance = motion[MOR_RECORD_IMPEDANCE - MOR_RECORD_VELOCITY];
-    m->minus_twice_impedance = -2.0 * m->impedance;
+    m->minus_twice_impedance = -(2.0 * m->impedance);
     m->pressure = load(own, MOR_RECORD_SIZE, MOR_RECORD_PRESSURE);
     if (form.linear) {
-        load_first(arrays->strain_rate + first * 6, 6, 6, m->strain_rate);
+        load_first(strain_rate_of(arrays, first), STRAIN_SIZE, 6, m->strain_rate);
     }
     if (form.extra) {
-        m->flow = load(arrays->extra + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_FLOW);
+        m->flow = load(READ(extra) + first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_FLOW);
     }
     if (form.several) {
-        const double *of_soil = arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE;
+        const real *of_soil = READ(of_soil) + first * MOR_PAIR_OF_SOIL_SIZE;
         m->limiter = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_LIMITER);
         m->soil = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_INDEX);
     }
     for (int lane = 0; lane < LANES && form.several && form.extra; ++lane) {
-        m->stiffness[lane] = c->soils[(int)m->soil[lane]].hourglass;
+        m->stiffness[lane] = (real)c->soils[(int)m->soil[lane]].hourglass;
     }
 }
 
@@ -332,18 +351,19 @@ INLINE void compiler_barrier(momentum_part *part)
 }
 
 /* With means there are more sums of the diffusion than registers beside those of the forces. */
-INLINE void add_diffusions(momentum_part *part, const momentum_pairs *pairs, const int32_t *near, int n,
-                           const mor_pair_arrays *arrays, const momentum_form form)
+INLINE void add_diffusions(momentum_part *part, const geometries *chunk, const momentum_pairs *pairs,
+                           const int32_t *near, int n, const mor_pair_arrays *arrays, const momentum_form form)
 {
-    momentum_sums sums = part->sums;
+    momentum_sums sums;
+    copy_sums(&sums, &part->sums, form);
     for (int q = 0; q < n; ++q) {
-        const double *target = target_of(arrays, near[q]);
+        const real *target = target_of(arrays, near[q]);
         const momentum_pair it = pair_at(pairs, q, form);
         pair p;
-        separate(p.r, &part->frame, target, form.dimension);
+        separation_at(p.r, chunk, q, &part->frame, target, form.dimension);
         add_diffusion(&sums, &p, &it, target + MOR_RECORD_STRESS, extra_of(arrays, near[q]), form);
     }
-    part->sums = sums;
+    copy_sums(&part->sums, &sums, form);
     compiler_barrier(part);
 }
 
@@ -358,56 +378,67 @@ INLINE void prefetch_rest(const mor_pair_arrays *arrays, int32_t j, const moment
         __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
     }
     if (form.linear) {
-        __builtin_prefetch(arrays->strain_rate + (int64_t)j * 6);
+        __builtin_prefetch(strain_rate_of(arrays, j));
     }
 }
 
-INLINE void add_chunk(momentum_part *part, const int32_t *near, int n, const mor_pair_constants *c,
+INLINE void add_chunk(momentum_part *part, geometries *chunk, const int32_t *near, int n, const mor_pair_constants *c,
                       const mor_pair_arrays *arrays, const momentum_form form)
 {
     const frame *f = &part->frame;
-    geometries chunk;
     momentum_pairs pairs;
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         prefetch_rest(arrays, near[q], form);
-        find_geometry(&chunk, q, target_of(arrays, near[q]), f, form.dimension, form.diffuses);
+        find_geometry(chunk, q, target_of(arrays, near[q]), f, form.dimension, form.diffuses);
     }
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
-        const double *strain_rate = form.linear ? arrays->strain_rate + (int64_t)near[q] * 6 : NULL;
-        const double *of_soil = of_soil_of(arrays, near[q], form.several);
-        const double *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
-        const geometry g = geometry_at(&chunk, q, form.diffuses);
+        const real *strain_rate = form.linear ? strain_rate_of(arrays, near[q]) : NULL;
+        const real *of_soil = of_soil_of(arrays, near[q], form.several);
+        const real *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
+        const geometry g = geometry_at(chunk, q, form.diffuses);
         momentum_pair it;
-        find_extra(&it, &g, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra, form);
+        vec r[3];
+        separation_at(r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
+        find_extra(&it, &g, r, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra, form);
         keep_pair(&pairs, q, &it, form);
     }
     compiler_barrier(part);
-    momentum_sums sums = part->sums;
+    momentum_sums sums;
+    copy_sums(&sums, &part->sums, form);
     for (int q = 0; q < n; ++q) {
-        const double *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
-        const geometry g = geometry_at(&chunk, q, form.diffuses);
+        const real *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
+        const geometry g = geometry_at(chunk, q, form.diffuses);
         const momentum_pair it = pair_at(&pairs, q, form);
-        add_pair(&sums, &it, &g, target_of(arrays, near[q]), extra, f, form);
+        vec r[3];
+        separation_at(r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
+        add_pair(&sums, &it, &g, r, target_of(arrays, near[q]), extra, form);
     }
-    part->sums = sums;
+    copy_sums(&part->sums, &sums, form);
     compiler_barrier(part);
     if (form.diffuses && form.extra) {
-        add_diffusions(part, &pairs, near, n, arrays, form);
+        add_diffusions(part, chunk, &pairs, near, n, arrays, form);
     }
     if (c->has_artificial_stress) {
-        artificial_adders[form.dimension - 2](part, &chunk, near, n, c, arrays);
+        artificial_adders[form.dimension - 2](part, chunk, near, n, c, arrays);
     }
 }
 
+/* Chunks that are kept at once: in double precision the parts of a cluster take turns. */
+enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
+
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
-INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, const int32_t *list, int32_t count,
-                     int32_t *entry, int32_t *near, const int dimension)
+INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
+                     int32_t count, int32_t *entry, int32_t *near, const int dimension)
 {
+    frame frames[PARTS]; /* stay in registers, for nobody else sees them */
+    for (int part = 0; part < PARTS; ++part) {
+        frames[part] = parts[part].frame;
+    }
     /* Slightly wider, so that rounding omits no pair within the support. */
-    const double half = parts[0].frame.half_inverse_h;
-    const double reach2 = (1.0 + 0x1p-40) / (half * half);
+    const real half = frames[0].half_inverse_h;
+    const real reach2 = (real)(1.0 + (sizeof(real) == sizeof(float) ? 0x1p-19 : 0x1p-40)) / (half * half);
     int32_t k = *entry;
     int n = 0;
     for (; k < count && n < CHUNK; ++k) {
@@ -415,8 +446,10 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
         int any = 0;
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
-            separate(r, &parts[part].frame, target_of(arrays, list[k]), dimension);
-            any |= any_less(squared(r, &parts[part].frame, dimension), reach2);
+            separate(r, &frames[part], target_of(arrays, list[k]), dimension);
+            const vec distance2 = squared(r, &frames[part], dimension);
+            keep_separation(chunks + part % KEPT, n, r, distance2, dimension);
+            any |= any_less(distance2, reach2);
         }
         near[n] = list[k];
         n += any != 0;
@@ -425,28 +458,53 @@ INLINE int find_near(const momentum_part *parts, const mor_pair_arrays *arrays, 
     return n;
 }
 
+#if defined(MOR_SINGLE)
+/* Prefetches what is read of a cluster in double precision once the sums are known. */
+INLINE void ask_for_doubles(const mor_pair_arrays *arrays, int64_t cluster, const momentum_form form)
+{
+    const int64_t first = cluster * MOR_CLUSTER;
+    ask_for(arrays->records + first * MOR_RECORD_SIZE, MOR_CLUSTER * MOR_RECORD_SIZE * (int64_t)sizeof(double), 0);
+    if (form.extra) {
+        ask_for(arrays->extra + first * MOR_EXTRA_SIZE, MOR_CLUSTER * MOR_EXTRA_SIZE * (int64_t)sizeof(double), 0);
+    }
+}
+#endif
+
 INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t cluster,
                              const momentum_form form)
 {
     momentum_part parts[PARTS];
+    geometries chunks[KEPT];
     for (int part = 0; part < PARTS; ++part) {
         start_momentum(parts + part, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
     }
+#if defined(MOR_SINGLE)
+    double totals[SUMS_OF(momentum_sums)][MOR_CLUSTER];
+    memset(totals, 0, sizeof totals);
+    ask_for_doubles(arrays, cluster, form);
+#endif
     const int32_t *list = arrays->inner->lists[cluster];
     const int32_t count = arrays->inner->counts[cluster];
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
-        const int n = find_near(parts, arrays, list, count, &entry, near + n_near, form.dimension);
+        const int n = find_near(parts, chunks, arrays, list, count, &entry, near + n_near, form.dimension);
         for (int part = 0; part < PARTS; ++part) {
-            add_chunk(parts + part, near + n_near, n, c, arrays, form);
+            add_chunk(parts + part, chunks + part % KEPT, near + n_near, n, c, arrays, form);
+#if defined(MOR_SINGLE)
+            add_totals(totals, &parts[part].sums, part, form);
+#endif
         }
         n_near += n;
     }
     arrays->inner->near_counts[cluster] = n_near;
+#if defined(MOR_SINGLE)
+    MOR_ISA_NAME(mor_pair_finish_momentum)(totals[0], c, arrays, cluster, form);
+#else
     for (int part = 0; part < PARTS; ++part) {
         momentum_finish(&parts[part].sums, c, arrays, parts[part].own.soil, cluster * MOR_CLUSTER + part * LANES, form);
     }
+#endif
 }
 
 /* The choices are hoisted out of the loops: each combination is its own copy of the inlined body. */
@@ -491,14 +549,29 @@ INLINE void momentum_range(const mor_pair_constants *c, const mor_pair_arrays *a
     }
 }
 
-void MOR_ISA_NAME(mor_pair_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                                        int64_t last)
+void LOOP_NAME(momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
 {
     momentum_range(c, arrays, first, last, 2);
 }
 
-void MOR_ISA_NAME(mor_pair_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
-                                        int64_t last)
+void LOOP_NAME(momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first, int64_t last)
 {
     momentum_range(c, arrays, first, last, 3);
 }
+
+#if !defined(MOR_SINGLE)
+void MOR_ISA_NAME(mor_pair_finish_momentum)(const double *totals, const mor_pair_constants *c,
+                                            const mor_pair_arrays *arrays, int64_t cluster, momentum_form form)
+{
+    for (int part = 0; part < PARTS; ++part) {
+        const int64_t first = cluster * MOR_CLUSTER + part * LANES;
+        momentum_sums sums;
+        _Static_assert(sizeof momentum_powers == SUMS_OF(momentum_sums), "one power for each sum");
+        take_totals(totals, momentum_powers, SUMS_OF(momentum_sums), c, part, (vec *)&sums);
+        const vec soil = form.several ? load(arrays->of_soil + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE,
+                                             MOR_PAIR_OF_SOIL_INDEX)
+                                      : broadcast(0.0);
+        momentum_finish(&sums, c, arrays, soil, first, form);
+    }
+}
+#endif

@@ -173,11 +173,19 @@ static void check_ranges(assembly *a, const mor_pair_table *table)
     }
 }
 
+static void check_ranges_in_mixed_precision(assembly *a, const mor_pair_table *table)
+{
+    a->is_mixed = true;
+    check_ranges(a, table);
+}
+
 static void sums_depend_neither_on_ranges_nor_on_strangers_in_the_lists(void **state)
 {
     (void)state;
     assembly_for_mixed(check_ranges);
     assembly_for_parts(check_ranges);
+    assembly_for_mixed(check_ranges_in_mixed_precision);
+    assembly_for_parts(check_ranges_in_mixed_precision);
 }
 
 static void check_wide_registers(assembly *a, const mor_pair_table *table)
@@ -188,6 +196,10 @@ static void check_wide_registers(assembly *a, const mor_pair_table *table)
     assembly_run(a, mor_pair_select("avx2"), 1000, &narrow);
     assembly_run(a, mor_pair_select("avx512"), 1000, &wide);
     assert_same(&narrow, &wide, (size_t)(MOR_KERNEL_SUMS * a->n));
+    if (!a->is_mixed) {
+        a->is_mixed = true;
+        check_wide_registers(a, table);
+    }
 }
 
 static void wide_registers_give_the_same_bits_as_wider_ones(void **state)
@@ -309,11 +321,19 @@ static void check_units(assembly *a, const mor_pair_table *table)
     }
 }
 
+static void check_units_in_mixed_precision(assembly *a, const mor_pair_table *table)
+{
+    a->is_mixed = true;
+    check_units(a, table);
+}
+
 static void units_changed_by_powers_of_two_change_no_bit(void **state)
 {
     (void)state;
     assembly_for_mixed(check_units);
     assembly_for_parts(check_units);
+    assembly_for_mixed(check_units_in_mixed_precision);
+    assembly_for_parts(check_units_in_mixed_precision);
 }
 
 /* Quarter turns about z and, in space, about x: all entries are 0 or 1, so that states turn without rounding. */
@@ -531,10 +551,13 @@ static void particles_in_one_place_give_numbers(void **state)
     for (int i = 10; i < 20; ++i) {
         points[3 * i] = 0.3 * ASSEMBLY_SPACING;
     }
-    for (int k = 0; k < n_tables; ++k) {
+    for (int option = 0; option < 2 * n_tables; ++option) {
+        const int k = option / 2;
+        const bool is_mixed = option % 2;
         assembly a;
         assembly_sums sums;
         assembly_open(&a, 3, points, 20);
+        a.is_mixed = is_mixed;
         assembly_run(&a, tables[k], 1000, &sums);
         for (int s = 0; s < ASSEMBLY_SUMS; ++s) {
             assert_true(isfinite(((const double *)&sums)[s]));
