@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/sph/stress/separation.h"
 
 #include <math.h>
 #include <string.h>
@@ -111,8 +112,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
         const double missing = density[i] - summed;
         double around = reference; /* beyond a free surface: as dense as here */
         if (separation != NULL && separation[i] > 0.0) {
-            /* A sum counts no gap: what is as dense as at the start has closed. */
-            separation[i] = summed < reference ? separation[i] : 0.0;
+            separation[i] = mor_separation_bound(separation[i], summed / reference);
             around *= exp(-separation[i]);
         }
         density[i] = missing > 0.0 ? summed + missing * around / density[i] : summed;

@@ -297,8 +297,8 @@ static mor_status largest_speed(mor_context *context, const view *v, double *val
     return mor_measure_speed(context, &v->points, v->velocity, v->probe->percentile, value);
 }
 
-/* Densities, kg/m3, and what they should be: that of one soil, or what the soil says of each particle; where it has come
- * apart, down to as much less. */
+/* Densities, kg/m3, and what they should be: that of one soil, or what the soil says of each particle; where it has
+ * come apart, down to as much less. */
 typedef struct drift_job {
     const double *density;
     const mor_soil *soil;

@@ -13,8 +13,10 @@
 
 /** MOR_SEPARATION_ZERO: stresses are zero up to this part of the stiffness rho_0 c_0^2, 1: far above the rounding of a
  *  return to the apex, far below any stress of interest. MOR_SEPARATION_ELASTIC: least rise of the mean stress of an
- *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more. */
+ *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more. MOR_SEPARATION_SLACK:
+ *  largest separation over the part of the density that is missing, 1. */
 #define MOR_SEPARATION_ZERO 1.0e-13
+#define MOR_SEPARATION_SLACK 10.0
 #define MOR_SEPARATION_ELASTIC 0.25
 
 /** What a law sees of the strain of a step. */
@@ -76,6 +78,16 @@ static inline double mor_separation_open(double strain, const double *before, co
     const bool is_torn = mean >= -zero && rise - diffused / stiffness < MOR_SEPARATION_ELASTIC * strain;
     const bool is_open = strain > 0.0 && (is_torn || mor_separation_is_free(stress, zero));
     return is_open ? fmin(fmax(strain - rise, 0.0), strain) : 0.0;
+}
+
+/** Returns the strain of separation, >= 0, 1, of soil whose density by summation is a ratio of the one at rest (A4).
+ *  What is as dense as at the start has closed: a free surface only lowers the sum. Below, the sum is no measure, for
+ *  it counts grains too high that lie in pairs; the bound is steep so that nothing hangs on the rounding of a sum.
+ *  @param separation [in]  >= 0, 1
+ *  @param ratio      [in]  of both densities, 1 */
+static inline double mor_separation_bound(double separation, double ratio)
+{
+    return fmin(separation, MOR_SEPARATION_SLACK * fmax(1.0 - ratio, 0.0));
 }
 
 #endif
