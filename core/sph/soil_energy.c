@@ -17,7 +17,7 @@ enum { BATCH = MOR_SOIL_BATCH, PARTS = MOR_SOIL_ENERGY_PARTS };
 
 /* Largest error of the line between two samples, over the energy converted so far and soon: in as many steps at the
  * present powers, so that the start of a run, when hardly any energy has been converted, is not sampled in each. */
-#define LARGEST_ERROR 3.0e-4
+#define LARGEST_ERROR 1.0e-4
 #define SOON (8.0 * MOR_SOIL_ENERGY_INTERVAL)
 
 mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)

@@ -42,8 +42,9 @@ static inline double mor_separation_mean(const double *stress)
     return (stress[0] + stress[1] + stress[2]) / 3.0;
 }
 
-/** Finds what the law sees of a step of soil that is open. Without any stress: nothing, until it has closed (A1). With
- *  some, of soil with cohesion: all but the compression beyond the one that takes its tension (A2).
+/** Finds what the law sees of a step of soil that is open. An expansion: all of it, for it tells whether there is
+ *  tension. A compression without any stress: nothing, until the soil has closed (A1); with some, of soil with
+ *  cohesion: all but what goes beyond the part that takes its tension (A2).
  *  @param separation [in]  strain of separation before the step, > 0, 1
  *  @param strain     [in]  volumetric strain of the step, 1
  *  @param stress     [in]  shape [6]; before the step, Pa
@@ -52,12 +53,12 @@ static inline mor_separation_part mor_separation_find(double separation, double 
                                                       double stiffness)
 {
     const double after = separation + strain;
-    if (mor_separation_is_free(stress, MOR_SEPARATION_ZERO * stiffness)) {
+    if (strain < 0.0 && mor_separation_is_free(stress, MOR_SEPARATION_ZERO * stiffness)) {
         return after > 0.0 ? (mor_separation_part){.share = 0.0, .left = after}
                            : (mor_separation_part){.share = after / strain};
     }
     const double pressed = -strain - mor_separation_mean(stress) / stiffness;
-    const double most = fmin(separation, -strain);
+    const double most = fmin(separation, fmax(-strain, 0.0));
     const double taken = fmax(fmin(pressed, most), 0.0);
     return (mor_separation_part){.share = 1.0, .taken = taken, .left = separation - taken};
 }

@@ -71,19 +71,16 @@ static void find_seen(const mor_stress_update *it, int64_t first, int64_t n, see
     }
 }
 
-/* Adds what has opened. What is open and had no stress has none.
+/* Adds what has opened.
  *  start: shape [n, 6], stress before the step, Pa */
 static void keep_separation(const mor_stress_update *it, int64_t first, int64_t n, const seen *s, const double *start)
 {
     for (int64_t k = 0; k < n && it->separation != NULL; ++k) {
         const int64_t i = first + k;
-        const double stiffness = find_stiffness(it, i);
-        const double left = s->is_less ? s->separation[k] : 0.0;
-        const bool is_free = left > 0.0 && mor_separation_is_free(start + 6 * k, MOR_SEPARATION_ZERO * stiffness);
         const double diffused = it->diffusion != NULL ? it->length * mor_separation_mean(it->diffusion + 6 * i) : 0.0;
-        it->separation[i] = is_free ? left
-                                    : left + mor_separation_open(find_strain(it, i), start + 6 * k, it->stress + 6 * i,
-                                                                 diffused, stiffness);
+        it->separation[i] =
+            (s->is_less ? s->separation[k] : 0.0) +
+            mor_separation_open(find_strain(it, i), start + 6 * k, it->stress + 6 * i, diffused, find_stiffness(it, i));
     }
 }
 
