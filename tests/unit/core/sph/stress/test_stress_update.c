@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/random.h"
+#include "core/sph/stress/separation.h"
 #include "core/sph/stress/stress_update.h"
 #include "tests/common/law_point.h"
 
@@ -165,6 +166,38 @@ static void elastic_tension_that_diffuses_away_is_no_separation(void **state)
     law_point_close(&s.law);
 }
 
+/* (A4): nothing is open in soil as dense as at the start; a tenth below it is no measure; between it hangs on no
+ * rounding. */
+static void soil_as_dense_as_before_has_closed(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 100; ++k) {
+        const double ratio = 0.5 + 0.01 * k;
+        const double found = mor_separation_bound(0.6, ratio);
+        assert_true(found >= 0.0 && found <= 0.6);
+        assert_true(ratio < 1.0 || found == 0.0);
+        assert_true(ratio > 0.9 || found == 0.6);
+        assert_true(fabs(mor_separation_bound(0.6, ratio + 1e-12) - found) < 1e-10);
+    }
+}
+
+/* Each particle tears at the stiffness of its own soil: with that of another it would count as elastic. */
+static void stiffness_is_that_of_the_soil_of_the_particle(void **state)
+{
+    (void)state;
+    double of_soil[MOR_PAIR_OF_SOIL_SIZE * N] = {0.0};
+    sample s;
+    open_sample(&s, 0.5, 0.0, true);
+    s.update.of_soil = of_soil;
+    s.update.stiffness[0] = 1e-9 * BULK;
+    s.update.stiffness[1] = BULK;
+    of_soil[3 * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_INDEX] = 1.0;
+    strain(&s, 3, -2e-3, 0.0);
+    strain(&s, 3, 3e-3, 0.0);
+    assert_true(fabs(s.separation[3] - 1e-3) < 1e-12); /* 2e-3 were elastic; rounding */
+    law_point_close(&s.law);
+}
+
 /* A failure is told with what the law saw. */
 static void what_the_law_sees_of_open_soil_is_told(void **state)
 {
@@ -191,6 +224,8 @@ int main(void)
         cmocka_unit_test(torn_soil_closes_without_pressure),
         cmocka_unit_test(soil_that_keeps_its_stress_does_not_separate),
         cmocka_unit_test(elastic_tension_that_diffuses_away_is_no_separation),
+        cmocka_unit_test(soil_as_dense_as_before_has_closed),
+        cmocka_unit_test(stiffness_is_that_of_the_soil_of_the_particle),
         cmocka_unit_test(what_the_law_sees_of_open_soil_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
