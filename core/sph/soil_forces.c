@@ -322,6 +322,8 @@ static mor_status report_stress(mor_context *context, const mor_soil *soil, cons
     return mor_context_name_particle(context, told, soil->set.name, soil->set.id[i]);
 }
 
+_Static_assert((int)MOR_STRESS_SOILS_MAX >= (int)MOR_COMPOSITE_PARTS_MAX, "each soil has its stiffness");
+
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;

@@ -460,8 +460,7 @@ static const mor_probe_measure measures[] =
       .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"density_drift", "1", "1", SOIL | PERCENTILE, 0, OF_SOIL, 99.0,
                "relative deviation of the density from its initial value; of soil that has come apart, from the range "
-               "down to "
-               "that of its volume"},
+               "down to that of its volume"},
       .run = density_drift,
       .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,

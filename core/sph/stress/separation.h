@@ -16,8 +16,8 @@
  *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more. MOR_SEPARATION_SLACK:
  *  largest separation over the part of the density that is missing, 1. */
 #define MOR_SEPARATION_ZERO 1.0e-13
-#define MOR_SEPARATION_SLACK 10.0
 #define MOR_SEPARATION_ELASTIC 0.25
+#define MOR_SEPARATION_SLACK 10.0
 
 /** What a law sees of the strain of a step. */
 typedef struct mor_separation_part {

@@ -30,8 +30,8 @@ static double find_strain(const mor_stress_update *it, int64_t i)
 
 static double find_stiffness(const mor_stress_update *it, int64_t i)
 {
-    return it
-        ->stiffness[it->of_soil != NULL ? (int)it->of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_INDEX] : 0];
+    const double *of_soil = it->of_soil != NULL ? it->of_soil + i * MOR_PAIR_OF_SOIL_SIZE : NULL;
+    return it->stiffness[of_soil != NULL ? (int)of_soil[MOR_PAIR_OF_SOIL_INDEX] : 0];
 }
 
 static mor_separation_part find_part(const mor_stress_update *it, int64_t i)
