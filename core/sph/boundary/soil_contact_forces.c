@@ -148,7 +148,7 @@ typedef struct boundary_terms {
 static void resist_sliding(const double *slip, double limit, double wave_speed, double *tangential)
 {
     const double speed = mor_vector_length(slip);
-    const double share = speed > wave_speed ? fmin(speed / wave_speed - 1.0, 1.0) : 0.0;
+    const double share = speed > wave_speed ? mor_min(speed / wave_speed - 1.0, 1.0) : 0.0;
     for (int a = 0; a < 3 && share > 0.0; ++a) {
         tangential[a] += share * (-limit * slip[a] / speed - tangential[a]);
     }
@@ -215,13 +215,13 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
     if (p->frees) {
         const double pressed = -mor_vector_dot(traction, normal);
-        pressure = fmax(pressure, -fmax(pressed, 0.0));
+        pressure = mor_max(pressure, -mor_max(pressed, 0.0));
     }
     const double factor = -2.0 * length / record[MOR_RECORD_DENSITY];
     const double own = factor * (mor_vector_dot(traction, normal) - pressure);
     const double continued = mor_vector_dot(acceleration, normal);
     const bool is_coulomb = p->friction.kind == MOR_WALL_COULOMB;
-    const double along = is_coulomb && !p->coulomb_pulls ? fmax(own + continued, 0.0) : own + continued;
+    const double along = is_coulomb && !p->coulomb_pulls ? mor_max(own + continued, 0.0) : own + continued;
     const bool continues_freely = is_coulomb && !p->limits_all;
     double stick = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];

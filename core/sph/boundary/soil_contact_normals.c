@@ -25,7 +25,7 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* How far a direction is one of the faces seen; share: principal value of a sum of 1. */
 static double fade(double share)
 {
-    return fmin(fmax((share - ALIKE) / (MEET - ALIKE), 0.0), 1.0);
+    return mor_min(mor_max((share - ALIKE) / (MEET - ALIKE), 0.0), 1.0);
 }
 
 /* Whether faces differ so little that one direction is left: the second invariant of a tensor with trace 1 bounds the
@@ -49,28 +49,45 @@ static void find_normal(const double *faces, double *normal)
         normal[a] = faces[rows[row][a]];
         length2 += normal[a] * normal[a];
     }
+    const double inverse = 1.0 / sqrt(length2);
     for (int a = 0; a < 3; ++a) {
-        normal[a] /= sqrt(length2);
+        normal[a] *= inverse;
     }
 }
 
-/* Powers of a tensor whose smaller principal values are below ALIKE of its trace that leave one direction: 0.02^9. */
-enum { POWERS = 9 };
+/* Squares of a tensor, of a trace of 1, whose smaller principal values are below ALIKE that leave one direction: its
+ * ninth power, with the row that is taken, 0.02^9. */
+enum { SQUARES = 3 };
+
+static void square(double *tensor)
+{
+    const double xx = tensor[MOR_XX], yy = tensor[MOR_YY], zz = tensor[MOR_ZZ];
+    const double xy = tensor[MOR_XY], yz = tensor[MOR_YZ], zx = tensor[MOR_ZX];
+    tensor[MOR_XX] = xx * xx + (xy * xy + zx * zx);
+    tensor[MOR_YY] = yy * yy + (xy * xy + yz * yz);
+    tensor[MOR_ZZ] = zz * zz + (yz * yz + zx * zx);
+    tensor[MOR_XY] = xy * (xx + yy) + zx * yz;
+    tensor[MOR_YZ] = yz * (yy + zz) + xy * zx;
+    tensor[MOR_ZX] = zx * (zz + xx) + xy * yz;
+}
 
 /* The direction that is left where faces count as one, and its principal value. Costs a tenth of all three. */
 static double find_one_normal(const double *faces, double trace, double *normal)
 {
+    const double scale = 1.0 / trace;
+    double power[6];
     double next[3];
-    find_normal(faces, normal);
-    for (int power = 0; power < POWERS; ++power) {
-        mor_symmetric_apply(faces, normal, next);
-        for (int a = 0; a < 3; ++a) {
-            normal[a] = next[a] / trace; /* 0.98 to 1 times as long */
-        }
+    for (int a = 0; a < 6; ++a) {
+        power[a] = scale * faces[a];
     }
-    const double length = mor_vector_length(normal);
+    for (int k = 0; k < SQUARES; ++k) {
+        square(power); /* its largest principal value: 0.98^8 to 1 */
+    }
+    find_normal(power, next);
+    mor_symmetric_apply(faces, next, normal);
+    const double inverse = 1.0 / mor_vector_length(normal);
     for (int a = 0; a < 3; ++a) {
-        normal[a] /= length;
+        normal[a] *= inverse;
     }
     mor_symmetric_apply(faces, normal, next);
     return mor_vector_dot(next, normal);
@@ -86,7 +103,7 @@ typedef struct bearing {
 static void find_bearing(const double *faces, double trace, bearing *b)
 {
     mor_symmetric_eigen(faces, b->values, b->axes);
-    const double largest = fmax(fmax(b->values[0], b->values[1]), b->values[2]);
+    const double largest = mor_max(mor_max(b->values[0], b->values[1]), b->values[2]);
     for (int k = 0; k < 3; ++k) {
         b->shares[k] = b->values[k] == largest ? 1.0 : fade(b->values[k] / trace);
     }

@@ -38,7 +38,7 @@ static void prepare_slot(const mor_soil_contact *contact, double smoothing_lengt
         const double value = sums[MOR_KERNEL_SUM_VALUE];
         double *own = given + k * MOR_SHARES;
         const double *whole = contact->normals != NULL ? own + MOR_SHARE_DIRECTION : gradient;
-        const double length2 = fmax(mor_vector_dot(whole, gradient), 0.0);
+        const double length2 = mor_max(mor_vector_dot(whole, gradient), 0.0);
         const bool has_force = value > 0.0 && mor_vector_dot(gradient, gradient) > 0.0;
         memset(own, 0, MOR_SHARES * sizeof *own);
         if (!has_force) {

@@ -43,83 +43,120 @@ void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_k
     }
 }
 
-/* Adds V_j (stress_j - stress_i) . grad_i W of a pair, the parts of grad_i W along and across a wall apart. */
-INLINE void add_divergence(vec *sum, const geometry *g, const double *target, const frame *f, const vec *stress,
-                           const vec *normal, vec inverse)
+/* Stress components that a pass over a chunk sums, by three of the separation: as many sums as stay in registers. */
+enum { DIFFERENCES = 3, SUMMED = 6 * 3 };
+
+/* Adds V_j k (stress_j - stress_i)_s (r_j - r_i)_c of the pairs of a chunk, for three of the components s. */
+INLINE void add_differences(vec *sum, const geometries *chunk, const double *records, const int32_t *near, int size,
+                            const frame *f, const vec *stress, const int from)
 {
-    pair p;
-    separate(p.r, f, target, 3);
-    const vec across = g->k * dot_r(&p, normal[0], normal[1], normal[2], 3) * inverse;
-    vec d[6];
-    for (int a = 0; a < 6; ++a) {
-        d[a] = target[MOR_RECORD_STRESS + a] - stress[a];
-    }
-    for (int part = 0; part < 2; ++part) {
-        vec t[3];
-        for (int a = 0; a < 3; ++a) {
-            const vec both = across * normal[a];
-            t[a] = part == 0 ? multiply_add(g->k, p.r[a], -both) : both;
+    vec part[DIFFERENCES * 3];
+    memcpy(part, sum + 3 * from, sizeof part);
+    for (int q = 0; q < size; ++q) {
+        const double *target = records + (int64_t)near[q] * MOR_RECORD_SIZE;
+        const geometry g = geometry_at(chunk, q, 0);
+        pair p;
+        separate(p.r, f, target, 3);
+        const vec kr[3] = {g.k * p.r[0], g.k * p.r[1], g.k * p.r[2]};
+        for (int s = 0; s < DIFFERENCES; ++s) {
+            const vec difference = target[MOR_RECORD_STRESS + from + s] - stress[from + s];
+            for (int a = 0; a < 3; ++a) {
+                part[3 * s + a] = multiply_add(difference, kr[a], part[3 * s + a]);
+            }
         }
-        vec *out = sum + 3 * part;
-        out[0] = multiply_add(d[MOR_ZX], t[2], multiply_add(d[MOR_XY], t[1], multiply_add(d[MOR_XX], t[0], out[0])));
-        out[1] = multiply_add(d[MOR_YZ], t[2], multiply_add(d[MOR_YY], t[1], multiply_add(d[MOR_XY], t[0], out[1])));
-        out[2] = multiply_add(d[MOR_ZZ], t[2], multiply_add(d[MOR_YZ], t[1], multiply_add(d[MOR_ZX], t[0], out[2])));
     }
+    memcpy(sum + 3 * from, part, sizeof part);
 }
 
-/* Sums over soil neighbors of V_j (stress_j - stress_i) . grad_i W, the parts of grad_i W along and across a wall
- * apart. */
-INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t slot)
+/* Sums over soil neighbors of V_j k (stress_j - stress_i) (x) (r_j - r_i), the same for all that a cluster sees. */
+INLINE void sum_differences(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, vec *sum)
 {
     const double *own = job->records + first * MOR_RECORD_SIZE;
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    const double *gradients = job->sums + slot * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
-    vec n[3];
-    for (int a = 0; a < 3; ++a) {
-        n[a] = load(gradients, MOR_KERNEL_SUMS, a);
-    }
-    const vec length2 = multiply_add(n[2], n[2], multiply_add(n[1], n[1], n[0] * n[0]));
-    vec sum[6];
-    memset(sum, 0, sizeof sum);
-    if (!any_less(-length2, 0.0)) {
-        for (int a = 0; a < 6; ++a) {
-            store(job->out + slot * 6, 6, a, LANES, sum[a]);
-        }
-        return;
-    }
-    /* No normal where the wall is out of reach, and nothing to sum. */
-    const mask sees = length2 > 0.0;
-    const vec inverse = select_lanes(sees, 1.0 / length2, broadcast(0.0));
-    vec s[6];
+    vec stress[6];
     for (int a = 0; a < 6; ++a) {
-        s[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+        stress[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
     }
+    memset(sum, 0, SUMMED * sizeof *sum);
     const int32_t *near = mor_relation_near(job->inner, first / MOR_CLUSTER);
     const int32_t count = job->inner->near_counts[first / MOR_CLUSTER];
     geometries chunk;
     for (int32_t entry = 0; entry < count; entry += CHUNK) {
         const int size = count - entry < CHUNK ? count - entry : CHUNK;
         for (int q = 0; q < size; ++q) {
+            const int32_t later = entry + q + AHEAD < count ? entry + q + AHEAD : entry + q;
+            __builtin_prefetch(job->records + (int64_t)near[later] * MOR_RECORD_SIZE);
+            __builtin_prefetch(job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE + MOR_RECORD_STRESS);
             find_geometry(&chunk, q, job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE, &f, 3, 0);
         }
-        for (int q = 0; q < size; ++q) {
-            const double *target = job->records + (int64_t)near[entry + q] * MOR_RECORD_SIZE;
-            const geometry g = geometry_at(&chunk, q, 0);
-            add_divergence(sum, &g, target, &f, s, n, inverse);
-        }
+        add_differences(sum, &chunk, job->records, near + entry, size, &f, stress, 0);
+        add_differences(sum, &chunk, job->records, near + entry, size, &f, stress, DIFFERENCES);
     }
-    for (int a = 0; a < 6; ++a) {
-        store(job->out + slot * 6, 6, a, LANES, select_lanes(sees, -c->gradient_factor * sum[a], broadcast(0.0)));
+}
+
+/* Component a of the sums' contraction with a vector in place of r_j - r_i, and another in place of the stress's. */
+INLINE vec contract_row(const vec *sum, int a, const vec *normal)
+{
+    static const int rows[3][3] = {{MOR_XX, MOR_XY, MOR_ZX}, {MOR_XY, MOR_YY, MOR_YZ}, {MOR_ZX, MOR_YZ, MOR_ZZ}};
+    vec total = broadcast(0.0);
+    for (int b = 0; b < 3; ++b) {
+        const vec *r = sum + 3 * rows[a][b];
+        const vec along = multiply_add(r[2], normal[2], multiply_add(r[1], normal[1], r[0] * normal[0]));
+        total = multiply_add(along, normal[b], total);
+    }
+    return total;
+}
+
+/* The stress divergence, the parts of grad_i W along and across the boundary of a slot apart: with the sums S,
+ * S_abc n_b n_c across it and the rest of S_abb along it. */
+INLINE void split_divergence(const mor_pair_constants *c, const vec *sum, const vec *normal, vec length2, double *out)
+{
+    /* No normal where the boundary is out of reach. */
+    const mask sees = length2 > 0.0;
+    const vec inverse = select_lanes(sees, 1.0 / length2, broadcast(0.0));
+    const vec all[3] = {sum[3 * MOR_XX + 0] + sum[3 * MOR_XY + 1] + sum[3 * MOR_ZX + 2],
+                        sum[3 * MOR_XY + 0] + sum[3 * MOR_YY + 1] + sum[3 * MOR_YZ + 2],
+                        sum[3 * MOR_ZX + 0] + sum[3 * MOR_YZ + 1] + sum[3 * MOR_ZZ + 2]};
+    for (int a = 0; a < 3; ++a) {
+        const vec across = contract_row(sum, a, normal) * inverse;
+        const vec along = all[a] - across;
+        store(out, 6, a, LANES, select_lanes(sees, -c->gradient_factor * along, broadcast(0.0)));
+        store(out, 6, 3 + a, LANES, select_lanes(sees, -c->gradient_factor * across, broadcast(0.0)));
+    }
+}
+
+/* The parts of the divergence of all slots of one cluster. */
+INLINE void tangent_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t last,
+                         int64_t lane)
+{
+    vec sum[SUMMED];
+    bool is_summed = false;
+    memset(sum, 0, sizeof sum);
+    for (int64_t place = first; place < last; ++place) {
+        const int64_t slot = place * MOR_CLUSTER + lane;
+        const double *gradients = job->sums + slot * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+        vec n[3];
+        for (int a = 0; a < 3; ++a) {
+            n[a] = load(gradients, MOR_KERNEL_SUMS, a);
+        }
+        const vec length2 = multiply_add(n[2], n[2], multiply_add(n[1], n[1], n[0] * n[0]));
+        if (!is_summed && any_less(-length2, 0.0)) {
+            sum_differences(c, job, (int64_t)job->slots[first].cluster * MOR_CLUSTER + lane, sum);
+            is_summed = true;
+        }
+        split_divergence(c, sum, n, length2, job->out + slot * 6);
     }
 }
 
 void MOR_ISA_NAME(mor_pair_tangent)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first,
                                     int64_t last)
 {
-    for (int64_t place = first; place < last; ++place) {
+    for (int64_t end = first; first < last; first = end) {
+        while (end < last && job->slots[end].cluster == job->slots[first].cluster) {
+            ++end;
+        }
         for (int64_t part = 0; part < PARTS; ++part) {
-            const int64_t particle = (int64_t)job->slots[place].cluster * MOR_CLUSTER + part * LANES;
-            tangent_part(c, job, particle, place * MOR_CLUSTER + part * LANES);
+            tangent_part(c, job, first, end, part * LANES);
         }
     }
 }

@@ -63,7 +63,7 @@ bool mor_sleep_body_rests(double *rest, const double *const places[3], double le
         for (int a = 0; a < 3; ++a) {
             moved[a] = places[k][a] - rest[3 * k + a];
         }
-        farthest2 = fmax(farthest2, mor_vector_dot(moved, moved));
+        farthest2 = mor_max(farthest2, mor_vector_dot(moved, moved));
     }
     rest[MOR_SLEEP_REST_TIME] += length;
     if (!(farthest2 < displacement * displacement)) {
@@ -88,7 +88,7 @@ static double find_distance2(const double *minimum, const double *maximum, const
 {
     double distance2 = 0.0;
     for (int a = 0; a < 3; ++a) {
-        const double gap = fmax(0.0, fmax(other_minimum[a] - maximum[a], minimum[a] - other_maximum[a]));
+        const double gap = mor_max(0.0, mor_max(other_minimum[a] - maximum[a], minimum[a] - other_maximum[a]));
         distance2 += gap * gap;
     }
     return distance2;
@@ -105,8 +105,8 @@ static void empty_box(double *box)
 static void widen_box(double *box, const double *minimum, const double *maximum)
 {
     for (int a = 0; a < 3; ++a) {
-        box[a] = fmin(box[a], minimum[a]);
-        box[3 + a] = fmax(box[3 + a], maximum[a]);
+        box[a] = mor_min(box[a], minimum[a]);
+        box[3 + a] = mor_max(box[3 + a], maximum[a]);
     }
 }
 

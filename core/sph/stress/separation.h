@@ -3,6 +3,8 @@
 #ifndef MOR_CORE_SPH_STRESS_SEPARATION_H
 #define MOR_CORE_SPH_STRESS_SEPARATION_H
 
+#include "core/base/math.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -58,8 +60,8 @@ static inline mor_separation_part mor_separation_find(double separation, double 
                            : (mor_separation_part){.share = after / strain};
     }
     const double pressed = -strain - mor_separation_mean(stress) / stiffness;
-    const double most = fmin(separation, fmax(-strain, 0.0));
-    const double taken = fmax(fmin(pressed, most), 0.0);
+    const double most = mor_min(separation, mor_max(-strain, 0.0));
+    const double taken = mor_max(mor_min(pressed, most), 0.0);
     return (mor_separation_part){.share = 1.0, .taken = taken, .left = separation - taken};
 }
 
@@ -78,7 +80,7 @@ static inline double mor_separation_open(double strain, const double *before, co
     const double rise = (mean - mor_separation_mean(before)) / stiffness;
     const bool is_torn = mean >= -zero && rise - diffused / stiffness < MOR_SEPARATION_ELASTIC * strain;
     const bool is_open = strain > 0.0 && (is_torn || mor_separation_is_free(stress, zero));
-    return is_open ? fmin(fmax(strain - rise, 0.0), strain) : 0.0;
+    return is_open ? mor_min(mor_max(strain - rise, 0.0), strain) : 0.0;
 }
 
 /** Returns the strain of separation, >= 0, 1, of soil whose density by summation is a ratio of the one at rest (A4).
@@ -88,7 +90,7 @@ static inline double mor_separation_open(double strain, const double *before, co
  *  @param ratio      [in]  of both densities, 1 */
 static inline double mor_separation_bound(double separation, double ratio)
 {
-    return fmin(separation, MOR_SEPARATION_SLACK * fmax(1.0 - ratio, 0.0));
+    return mor_min(separation, MOR_SEPARATION_SLACK * mor_max(1.0 - ratio, 0.0));
 }
 
 #endif
