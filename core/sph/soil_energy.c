@@ -188,18 +188,25 @@ static double find_error(const mor_soil_energy *energy, const double *now, doubl
     return error;
 }
 
+/* Most steps between samples: powers of few particles scatter from step to step, and samples of them cost little. */
+static int64_t find_longest(int64_t n_particles)
+{
+    enum { FEW = 4096, MANY = 32768 };
+    return n_particles < FEW ? 2 : n_particles < MANY ? MOR_SOIL_ENERGY_INTERVAL / 2 : MOR_SOIL_ENERGY_INTERVAL;
+}
+
 /* The interval to the next sample: half, as long, or twice as long as the last one. */
-static int64_t choose_stride(const mor_soil_energy *energy, double error, double soon)
+static int64_t choose_stride(const mor_soil_energy *energy, double error, double soon, int64_t longest)
 {
     const double allowed = LARGEST_ERROR * (energy->turnover + soon);
     int64_t stride = error > 4.0 * allowed ? energy->stride / 2 : energy->stride;
     stride = error <= allowed ? 2 * energy->stride : stride;
-    stride = stride < MOR_SOIL_ENERGY_INTERVAL ? stride : MOR_SOIL_ENERGY_INTERVAL;
+    stride = stride < longest ? stride : longest;
     return stride > 1 ? stride : 1;
 }
 
 /* A sample stands for the middle of its steps. The first one reaches back to the start. */
-static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_steps)
+static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_steps, int64_t n_particles)
 {
     energy->width += step->length;
     energy->n_collected += 1;
@@ -225,7 +232,7 @@ static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_s
         energy->integral[part] += 0.5 * (before + now[part]) * reach;
         energy->turnover += 0.5 * (fabs(before) + fabs(now[part])) * reach;
     }
-    energy->stride = choose_stride(energy, error, size * SOON * step->length);
+    energy->stride = choose_stride(energy, error, size * SOON * step->length, find_longest(n_particles));
     energy->reach = is_first ? 0.0 : reach;
     memcpy(energy->previous, energy->power, sizeof energy->previous);
     memcpy(energy->power, now, sizeof energy->power);
@@ -278,6 +285,6 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *vi
     mor_view_read_shared(view, MOR_RESOURCE_REGULARIZATION, soil->regularization);
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
     mor_soil_energy_add(context, &job, find_stress_block);
-    integrate(energy, step, mor_soil_diffusion_interval(soil));
+    integrate(energy, step, mor_soil_diffusion_interval(soil), soil->set.n_particles);
     return mor_checked_report(context, soil->material, soil->set.name, step->time + step->length);
 }
