@@ -14,7 +14,9 @@ static MOR_LANES_INLINE void advance_lanes(const void *constants, mor_rate_block
 {
     const mor_hooke c = *(const mor_hooke *)constants;
     for (int lane = 0; lane < MOR_LANES; ++lane) {
-        mor_rate_write(b, lane, mor_rate_predict(c.two_shear, c.lame, b, lane));
+        mor_rate_write(b, lane,
+                       mor_rate_elastic(c.two_shear, c.lame, mor_rate_stress(b, lane), mor_rate_extra(b, lane),
+                                        mor_rate_gradient(b, lane)));
         b->dissipation[lane] = 0.0;
     }
 }

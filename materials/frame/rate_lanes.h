@@ -6,6 +6,7 @@
 #include "core/material/kit/lanes.h"
 #include "materials/frame/invariants.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -102,8 +103,37 @@ static MOR_LANES_INLINE mor_gradient mor_rate_gradient(const mor_rate_block *b, 
                           b->gradient[6][lane], b->gradient[7][lane], b->gradient[8][lane]};
 }
 
-/** Elastic trial, unit Pa: half of the increment before the rotation and half after it, which is of second order and
- *  symmetric in time.
+/** Elastic stress increment of a step, unit Pa.
+ *  @param two_shear [in]  2G; unit Pa
+ *  @param lame      [in]  K - 2G/3; unit Pa
+ *  @param extra     [in]  extra stress rate times the step; unit Pa
+ *  @param gradient  [in]  velocity gradient times the step; unit 1 */
+static MOR_LANES_INLINE mor_symmetric mor_rate_increment(double two_shear, double lame, mor_symmetric extra,
+                                                         mor_gradient gradient)
+{
+    const mor_symmetric strain = mor_gradient_strain(gradient);
+    const double mean = lame * mor_invariant_i1(strain);
+    const mor_symmetric elastic = {two_shear * strain.xx + mean, two_shear * strain.yy + mean,
+                                   two_shear * strain.zz + mean, two_shear * strain.xy,
+                                   two_shear * strain.yz,        two_shear * strain.zx};
+    return mor_symmetric_add(elastic, 1.0, extra);
+}
+
+/** Elastic trial of a law that never yields, unit Pa: half of the increment before the rotation and half after it,
+ *  which is of second order and symmetric in time. Parameters as those of mor_rate_trial. */
+static MOR_LANES_INLINE mor_symmetric mor_rate_elastic(double two_shear, double lame, mor_symmetric stress,
+                                                       mor_symmetric extra, mor_gradient gradient)
+{
+    const mor_symmetric increment = mor_rate_increment(two_shear, lame, extra, gradient);
+    const mor_symmetric rotated = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
+    return mor_symmetric_add(rotated, 0.5, increment);
+}
+
+/** Elastic trial of a law that may yield, unit Pa: a share w of the increment before the rotation, the rest after it,
+ *  w = 1/2 (J2(s)^2 / (J2(s)^2 + J2(ds)^2))^2 (docs/theory/drucker_prager.md). While increments are small that is half,
+ *  and of second order. An increment above the stress is cut back by the flow, which keeps nothing of how the step
+ *  began: half of it before the rotation would turn the stress out of the axes of the strain by a quarter of the shear
+ *  of the step, and flow would lose friction in proportion to the step.
  *  @param two_shear [in]  2G; unit Pa
  *  @param lame      [in]  K - 2G/3; unit Pa
  *  @param stress    [in]  at the start; unit Pa
@@ -112,24 +142,34 @@ static MOR_LANES_INLINE mor_gradient mor_rate_gradient(const mor_rate_block *b, 
 static MOR_LANES_INLINE mor_symmetric mor_rate_trial(double two_shear, double lame, mor_symmetric stress,
                                                      mor_symmetric extra, mor_gradient gradient)
 {
-    const mor_symmetric strain = mor_gradient_strain(gradient);
-    const double mean = lame * mor_invariant_i1(strain);
-    const mor_symmetric elastic = {two_shear * strain.xx + mean, two_shear * strain.yy + mean,
-                                   two_shear * strain.zz + mean, two_shear * strain.xy,
-                                   two_shear * strain.yz,        two_shear * strain.zx};
-    const mor_symmetric increment = mor_symmetric_add(elastic, 1.0, extra);
-    const mor_symmetric rotated = mor_symmetric_spin(mor_symmetric_add(stress, 0.5, increment), gradient);
-    return mor_symmetric_add(rotated, 0.5, increment);
+    const mor_symmetric increment = mor_rate_increment(two_shear, lame, extra, gradient);
+    const double old = mor_invariant_j2(stress);
+    const double added = mor_invariant_j2(increment);
+    const double share = old * old / (old * old + added * added + DBL_MIN); /* 0 where both are 0 */
+    const double before = 0.5 * share * share;
+    const mor_symmetric rotated = mor_symmetric_spin(mor_symmetric_add(stress, before, increment), gradient);
+    return mor_symmetric_add(rotated, 1.0 - before, increment);
+}
+
+/** Reads the stress of a lane; unit Pa. */
+static MOR_LANES_INLINE mor_symmetric mor_rate_stress(const mor_rate_block *b, int lane)
+{
+    return (mor_symmetric){b->stress[0][lane], b->stress[1][lane], b->stress[2][lane],
+                           b->stress[3][lane], b->stress[4][lane], b->stress[5][lane]};
+}
+
+/** Reads the extra stress rate times the step of a lane; unit Pa. */
+static MOR_LANES_INLINE mor_symmetric mor_rate_extra(const mor_rate_block *b, int lane)
+{
+    return (mor_symmetric){b->extra[0][lane], b->extra[1][lane], b->extra[2][lane],
+                           b->extra[3][lane], b->extra[4][lane], b->extra[5][lane]};
 }
 
 /** Elastic trial of a lane, unit Pa; two_shear and lame in Pa, see mor_rate_trial. */
 static MOR_LANES_INLINE mor_symmetric mor_rate_predict(double two_shear, double lame, const mor_rate_block *b, int lane)
 {
-    const mor_symmetric stress = {b->stress[0][lane], b->stress[1][lane], b->stress[2][lane],
-                                  b->stress[3][lane], b->stress[4][lane], b->stress[5][lane]};
-    const mor_symmetric extra = {b->extra[0][lane], b->extra[1][lane], b->extra[2][lane],
-                                 b->extra[3][lane], b->extra[4][lane], b->extra[5][lane]};
-    return mor_rate_trial(two_shear, lame, stress, extra, mor_rate_gradient(b, lane));
+    return mor_rate_trial(two_shear, lame, mor_rate_stress(b, lane), mor_rate_extra(b, lane),
+                          mor_rate_gradient(b, lane));
 }
 
 /** Stores the end stress [Pa] of a lane. */

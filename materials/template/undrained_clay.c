@@ -62,15 +62,31 @@ static const mor_schema STATE[] = {
 
 /* Step 3: one update. Stress is positive in tension, in the order xx, yy, zz, xy, yz, zx. */
 
+static double find_j2(const double *stress)
+{
+    const double mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+    double j2 = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        j2 += 0.5 * (stress[a] - mean) * (stress[a] - mean) + stress[3 + a] * stress[3 + a];
+    }
+    return j2;
+}
+
 /* Trial stress: the old one, rotated with the particle (Jaumann rate, Hughes and Winget (1980)), plus the elastic
- * increment, half before and half after the rotation. l is the velocity gradient times the step. */
+ * increment: half before and half after the rotation, which is of second order, but all of it after the rotation where
+ * it is far above the stress, for flow keeps nothing of how the step began. l is the velocity gradient times the
+ * step. */
 static void predict(double shear, double bulk, const double *l, const double *extra, double step, double *stress)
 {
     const double mean = (bulk - 2.0 * shear / 3.0) * (l[0] + l[4] + l[8]);
     const double increment[6] = {2.0 * shear * l[0] + mean, 2.0 * shear * l[4] + mean, 2.0 * shear * l[8] + mean,
                                  shear * (l[1] + l[3]),     shear * (l[5] + l[7]),     shear * (l[6] + l[2])};
+    const double j2_old = find_j2(stress);
+    const double j2_added = find_j2(increment);
+    const double share = j2_old > 0.0 ? j2_old * j2_old / (j2_old * j2_old + j2_added * j2_added) : 0.0;
+    const double before = 0.5 * share * share;
     for (int a = 0; a < 6; ++a) {
-        stress[a] += 0.5 * (increment[a] + (extra != NULL ? extra[a] * step : 0.0));
+        stress[a] += before * (increment[a] + (extra != NULL ? extra[a] * step : 0.0));
     }
     /* Rotation minus identity: 2/(1 + w.w) ([w] + [w][w]), w half the axial vector of the spin. */
     const double w[3] = {0.25 * (l[7] - l[5]), 0.25 * (l[2] - l[6]), 0.25 * (l[3] - l[1])};
@@ -94,7 +110,7 @@ static void predict(double shear, double bulk, const double *l, const double *ex
         const int a = m % 3;
         const int b = m < 3 ? a : (a + 1) % 3;
         stress[m] += product[3 * a + b] + product[3 * b + a] + mor_vector_dot(product + 3 * a, rotation + 3 * b);
-        stress[m] += 0.5 * (increment[m] + (extra != NULL ? extra[m] * step : 0.0));
+        stress[m] += (1.0 - before) * (increment[m] + (extra != NULL ? extra[m] * step : 0.0));
     }
 }
 
