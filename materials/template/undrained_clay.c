@@ -79,14 +79,17 @@ static double find_j2(const double *stress)
 static void predict(double shear, double bulk, const double *l, const double *extra, double step, double *stress)
 {
     const double mean = (bulk - 2.0 * shear / 3.0) * (l[0] + l[4] + l[8]);
-    const double increment[6] = {2.0 * shear * l[0] + mean, 2.0 * shear * l[4] + mean, 2.0 * shear * l[8] + mean,
-                                 shear * (l[1] + l[3]),     shear * (l[5] + l[7]),     shear * (l[6] + l[2])};
+    double increment[6] = {2.0 * shear * l[0] + mean, 2.0 * shear * l[4] + mean, 2.0 * shear * l[8] + mean,
+                           shear * (l[1] + l[3]),     shear * (l[5] + l[7]),     shear * (l[6] + l[2])};
+    for (int a = 0; a < 6 && extra != NULL; ++a) {
+        increment[a] += extra[a] * step;
+    }
     const double j2_old = find_j2(stress);
     const double j2_added = find_j2(increment);
     const double share = j2_old > 0.0 ? j2_old * j2_old / (j2_old * j2_old + j2_added * j2_added) : 0.0;
     const double before = 0.5 * share * share;
     for (int a = 0; a < 6; ++a) {
-        stress[a] += before * (increment[a] + (extra != NULL ? extra[a] * step : 0.0));
+        stress[a] += before * increment[a];
     }
     /* Rotation minus identity: 2/(1 + w.w) ([w] + [w][w]), w half the axial vector of the spin. */
     const double w[3] = {0.25 * (l[7] - l[5]), 0.25 * (l[2] - l[6]), 0.25 * (l[3] - l[1])};
@@ -110,7 +113,7 @@ static void predict(double shear, double bulk, const double *l, const double *ex
         const int a = m % 3;
         const int b = m < 3 ? a : (a + 1) % 3;
         stress[m] += product[3 * a + b] + product[3 * b + a] + mor_vector_dot(product + 3 * a, rotation + 3 * b);
-        stress[m] += (1.0 - before) * (increment[m] + (extra != NULL ? extra[m] * step : 0.0));
+        stress[m] += (1.0 - before) * increment[m];
     }
 }
 
