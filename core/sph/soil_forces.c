@@ -55,11 +55,19 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
 static mor_status run_in_precision(mor_context *context, mor_soil *soil, mor_pair_arrays *arrays,
                                    const mor_pair_loop *in_double, const mor_pair_loop *mixed)
 {
-    const bool is_mixed = soil->settings.scheme.precision == 1;
-    MOR_TRY(context, !is_mixed
-                         ? MOR_OK
-                         : mor_pair_singles_pack(context, &soil->constants, &soil->images, &soil->singles, arrays));
-    mor_soil_run_pairs(context, &soil->constants, arrays, (is_mixed ? mixed : in_double)[soil->settings.dimension - 2]);
+    const int plane = soil->settings.dimension - 2;
+    if (soil->settings.scheme.precision != 1) {
+        mor_soil_run_pairs(context, &soil->constants, arrays, in_double[plane]);
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_pair_singles_pack(context, &soil->constants, &soil->images, &soil->singles, arrays));
+    mor_soil_run_pairs(context, &soil->constants, arrays, mixed[plane]);
+    MOR_PARALLEL_FOR (context, cluster, arrays->inner->n_clusters, MOR_BLOCK) {
+        if (mor_pair_singles_is_wide(&soil->singles, cluster) &&
+            !mor_sleep_is(arrays->asleep, cluster, MOR_SLEEP_ASLEEP)) {
+            in_double[plane](&soil->constants, arrays, cluster, cluster + 1);
+        }
+    }
     return MOR_OK;
 }
 

@@ -9,6 +9,10 @@
  * work for three threads and each reduction more than one block. */
 enum { N_STEPS = 40 };
 
+#define SAND_BLOCK                                                                                                     \
+    "material = { model = 'mohr_coulomb'; density = 1600; youngs_modulus = '4 MPa'; poissons_ratio = 0.3;"             \
+    "  friction_angle = '32 deg'; }; "
+
 static const char *const fine_plane[] = {"spacing=4.5 mm", NULL};
 static const char *const fine_space[] = {"spacing=7 mm", NULL};
 
@@ -99,6 +103,33 @@ static void checksum_tells_one_step_from_the_next(void **state)
     scene_free(it);
 }
 
+/* Two heaps of four grains, 2^32 units of places apart, so that in single precision, where places are kept modulo that,
+ * they are at the same place. One cluster holds both, so that each sees what is listed for the other. */
+static const char far_apart[] =
+    "dimension = 2; spacing = '5 mm'; gravity = (0, 0, 0); end = '20 ms';"
+    "domain = { min = (-0.1, -0.1, -1); max = (4.2, 0.1, 1); };"
+    "soil = ( { name = 'here'; shape = { type = 'box'; min = (0, 0); max = (0.01, 0.01); }; " SAND_BLOCK "},"
+    "  { name = 'there'; shape = { type = 'box'; min = (4, 0.02); max = (4.01, 0.03); };"
+    "    velocity = (0, '-1 m/s', 0); " SAND_BLOCK "} );"
+    "probes = ( { type = 'largest_speed'; soil = 'here'; } );";
+
+/* Soil moves past as far away as no list reaches: nothing is felt of it. */
+static void soil_sees_none_that_is_far_away(void **state)
+{
+    static const char *const precisions[][2] = {{"numerics.precision=double", NULL},
+                                                {"numerics.precision=mixed", NULL}};
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        const scene_request request = {far_apart, (const char *const *[]){precisions[k]}, 1, 1};
+        scene *it = scene_new(&request);
+        const double unit = mor_pair_length_unit(it->simulation.soil.constants.smoothing_length);
+        assert_true(fmod(4.0 / unit, 0x1p32) == 0.0);
+        scene_advance(it, 0.02);
+        assert_true(scene_probe(it, "largest_speed") == 0.0);
+        scene_free(it);
+    }
+}
+
 int main(int argc, char **argv)
 {
     (void)argc;
@@ -111,6 +142,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(space_soil_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(soil_does_not_depend_on_the_skin_of_its_neighbor_lists),
         cmocka_unit_test(checksum_tells_one_step_from_the_next),
+        cmocka_unit_test(soil_sees_none_that_is_far_away),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -131,7 +131,7 @@ typedef struct mor_pair_single_arrays {
 } mor_pair_single_arrays;
 
 /** Returns the unit of places and lengths in single precision, m: a power of two between h 2^-23 and h 2^-22. Places
- *  are rounded to it and kept modulo 2^32, so that differences of places up to 512 h apart come out exactly, and those
+ *  are rounded to it and kept modulo 2^32, so that differences of places up to 256 h apart come out exactly, and those
  *  within the support are exact as singles, too.
  *  @param h [in]  smoothing length, m */
 static inline double mor_pair_length_unit(double h)

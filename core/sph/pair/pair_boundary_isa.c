@@ -46,7 +46,7 @@ void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_k
 /* Stress components that a pass over a chunk sums, by three of the separation: as many sums as stay in registers. */
 enum { DIFFERENCES = 3, SUMMED = 6 * 3 };
 
-/* Adds V_j k (stress_j - stress_i)_s (r_j - r_i)_c of the pairs of a chunk, for three of the components s. */
+/* Adds V_j k (stress_j - stress_i)_s (r_i - r_j)_c of the pairs of a chunk, for three of the components s. */
 INLINE void add_differences(vec *sum, const geometries *chunk, const double *records, const int32_t *near, int size,
                             const frame *f, const vec *stress, const int from)
 {
@@ -68,7 +68,7 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const double *rec
     memcpy(sum + 3 * from, part, sizeof part);
 }
 
-/* Sums over soil neighbors of V_j k (stress_j - stress_i) (x) (r_j - r_i), the same for all that a cluster sees. */
+/* Sums over soil neighbors of V_j k (stress_j - stress_i) (x) (r_i - r_j), the same for all that a cluster sees. */
 INLINE void sum_differences(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, vec *sum)
 {
     const double *own = job->records + first * MOR_RECORD_SIZE;
@@ -94,7 +94,7 @@ INLINE void sum_differences(const mor_pair_constants *c, const mor_pair_tangent_
     }
 }
 
-/* Component a of the sums' contraction with a vector in place of r_j - r_i, and another in place of the stress's. */
+/* Component a of the sums' contraction with a vector in place of r_i - r_j, and another in place of the stress's. */
 INLINE vec contract_row(const vec *sum, int a, const vec *normal)
 {
     static const int rows[3][3] = {{MOR_XX, MOR_XY, MOR_ZX}, {MOR_XY, MOR_YY, MOR_YZ}, {MOR_ZX, MOR_YZ, MOR_ZZ}};

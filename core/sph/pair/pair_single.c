@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/sph/pair/pair_single.h"
 
+#include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
 
@@ -50,6 +51,9 @@ static mor_status reserve(mor_context *context, mor_pair_singles *singles, const
     if (padded + n_images > singles->capacity) {
         mor_pair_singles_clear(context, singles);
         singles->capacity = padded + n_images + n_images / 4;
+    }
+    if (singles->is_wide == NULL) {
+        MOR_TRY(context, MOR_NEW(context, &singles->is_wide, singles->capacity / MOR_CLUSTER + 1, "wide clusters"));
     }
     for (int k = 0; k < N_ARRAYS; ++k) {
         if (list[k].from != NULL && *list[k].room == NULL) {
@@ -102,6 +106,29 @@ static void copy_entry(const packing *it, const mor_images *images, int64_t i)
     }
 }
 
+/* Widest cluster of which all that is near a lane is near enough to be told apart: differences of places are less than
+ * 2^31 units, 256 h and more, and lists reach a few h. */
+#define WIDEST 128.0
+
+/* Along the axis in which a cluster is widest, m. */
+static double find_width(const packing *it, int64_t cluster)
+{
+    const int64_t first = cluster * MOR_CLUSTER;
+    const int64_t last = first + MOR_CLUSTER < it->n ? first + MOR_CLUSTER : it->n;
+    double width = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        double least = INFINITY;
+        double most = -INFINITY;
+        for (int64_t i = first; i < last; ++i) {
+            const double place = it->list[0].from[i * MOR_RECORD_SIZE + MOR_RECORD_POSITION + a];
+            least = mor_min(least, place);
+            most = mor_max(most, place);
+        }
+        width = mor_max(width, most - least);
+    }
+    return width;
+}
+
 /* Images have what their owners have, but their place. */
 static void copy_image(const packing *it, const mor_images *images, int64_t k)
 {
@@ -134,6 +161,9 @@ mor_status mor_pair_singles_pack(mor_context *context, const mor_pair_constants 
         for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, padded); ++i) {
             copy_entry(&it, images, i);
         }
+        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, padded); i += MOR_CLUSTER) {
+            singles->is_wide[i / MOR_CLUSTER] = find_width(&it, i / MOR_CLUSTER) > WIDEST * constants->smoothing_length;
+        }
     }
     MOR_PARALLEL_FOR (context, k, n_images, MOR_BLOCK) {
         copy_image(&it, images, k);
@@ -151,6 +181,7 @@ void mor_pair_singles_clear(mor_context *context, mor_pair_singles *singles)
     MOR_FREE(context, &singles->artificial_stress);
     MOR_FREE(context, &singles->strain_rate);
     MOR_FREE(context, &singles->of_soil);
+    MOR_FREE(context, &singles->is_wide);
     singles->capacity = 0;
 }
 

@@ -6,6 +6,9 @@
 #include "core/particle/images.h"
 #include "core/sph/pair/pair.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /** @file
  *  Copies in single precision of what the pair loops read, for those in mixed precision. The state stays in double: the
  *  copies are made anew before each loop. Theory: docs/theory/soil.md, mixed precision. */
@@ -17,6 +20,7 @@ typedef struct mor_pair_singles {
     float *artificial_stress; /* shape [capacity, 6], units as there; or NULL */
     float *strain_rate;       /* shape [capacity, MOR_PAIR_SINGLE_STRAIN], units as there; or NULL */
     float *of_soil;           /* shape [capacity, MOR_PAIR_OF_SOIL_SIZE], units as there; or NULL */
+    uint8_t *is_wide;         /* shape [capacity / 8]; clusters that the loops in mixed precision cannot tell apart */
     int64_t capacity;         /* particles and images there is room for */
 } mor_pair_singles;
 
@@ -31,6 +35,15 @@ typedef struct mor_pair_singles {
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more images than ever before. */
 mor_status mor_pair_singles_pack(mor_context *context, const mor_pair_constants *constants, const mor_images *images,
                                  mor_pair_singles *singles, mor_pair_arrays *arrays);
+
+/** Returns whether a cluster is so wide, along any axis, that places modulo 2^32 would show it soil that is far away
+ *  as near: a sum over its pairs must be one in double. Depends on places alone.
+ *  @param singles [in]  packed
+ *  @param cluster [in]  of the particles */
+static inline bool mor_pair_singles_is_wide(const mor_pair_singles *singles, int64_t cluster)
+{
+    return singles->is_wide[cluster] != 0;
+}
 
 /** Frees what is owned; accepts a zeroed one. */
 void mor_pair_singles_clear(mor_context *context, mor_pair_singles *singles);
