@@ -8,6 +8,8 @@
 #include "core/material/kit/material.h"
 #include "core/material/kit/plugin.h"
 
+#include <float.h>
+
 /* Step 1: the parameters, in the order in which create finds them. Moraine reads them from the case file, converts the
  * units, checks the ranges and prints them into every output. The role says what a parameter means to the rest of the
  * program: stress at rest, stiffness in contact and warnings need friction angle, cohesion and moduli, whatever their
@@ -86,7 +88,7 @@ static void predict(double shear, double bulk, const double *l, const double *ex
     }
     const double j2_old = find_j2(stress);
     const double j2_added = find_j2(increment);
-    const double share = j2_old > 0.0 ? j2_old * j2_old / (j2_old * j2_old + j2_added * j2_added) : 0.0;
+    const double share = j2_old > 0.0 ? j2_old * j2_old / (j2_old * j2_old + j2_added * j2_added + DBL_MIN) : 0.0;
     const double before = 0.5 * share * share;
     for (int a = 0; a < 6; ++a) {
         stress[a] += before * increment[a];
