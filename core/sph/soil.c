@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/material/checked.h"
 #include "core/particle/kernel.h"
+#include "core/sph/stress/separation.h"
 
 #include <string.h>
 
@@ -347,6 +348,9 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
         return status;
     }
     set_constants(soil);
+    for (int64_t i = 0; i < n_particles && soil->set.data[MOR_FIELD_SEPARATION] != NULL; ++i) {
+        soil->set.data[MOR_FIELD_SEPARATION][i] = MOR_SEPARATION_UNKNOWN;
+    }
     soil->largest_acceleration = mor_vector_length(settings->gravity);
     return MOR_OK;
 }
@@ -480,7 +484,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->continued != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += (double)soil->tree.n_clusters * sizeof *soil->at_wall;
     bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
-    bytes += soil->energy != NULL ? n * 15.0 * sizeof(double) : 0.0;
+    bytes += soil->energy != NULL ? n * 17.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
     bytes += soil->settings.scheme.precision != 1
                  ? 0.0

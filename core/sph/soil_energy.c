@@ -10,6 +10,7 @@
 #include "core/material/checked.h"
 #include "core/sph/soil_internal.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Particles handed to a material at once; a block is a whole number of them. */
@@ -30,6 +31,7 @@ mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
     MOR_TRY(context, MOR_NEW(context, &soil->energy->scratch, MOR_PAIR_POWERS * n, "audit of energy"));
     soil->energy->find_powers = mor_pair_audit_select(NULL);
     MOR_TRY(context, MOR_NEW(context, &soil->energy->strains, 12 * n, "audit of energy"));
+    MOR_TRY(context, MOR_NEW(context, &soil->energy->shown, n, "audit of energy"));
     return MOR_NEW(context, &soil->energy->block_sums, mor_block_count(n) * PARTS, "blocks of the audit of energy");
 }
 
@@ -37,6 +39,7 @@ void mor_soil_clear_energy(mor_context *context, mor_soil *soil)
 {
     if (soil->energy != NULL) {
         MOR_FREE(context, &soil->energy->block_sums);
+        MOR_FREE(context, &soil->energy->shown);
         MOR_FREE(context, &soil->energy->strains);
         MOR_FREE(context, &soil->energy->scratch);
         MOR_FREE(context, &soil->energy);
@@ -135,7 +138,10 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
         const double work = mor_soil_stress_power(middle + 6 * i, job->velocity_gradient + 9 * (first + i));
         const double *strains = job->soil->energy->strains + 12 * (first + i);
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
-        sums[MOR_SOIL_ENERGY_PLASTIC] += volume * (work + spread - (stored[END][i] - stored[START][i]) / length);
+        const double shown = mor_symmetric_trace(middle + 6 * i) / 3.0 * job->soil->energy->shown[first + i] / length;
+        sums[MOR_SOIL_ENERGY_PLASTIC] +=
+            volume * (work + shown + spread - (stored[END][i] - stored[START][i]) / length);
+        sums[MOR_SOIL_ENERGY_CORRECTION] -= volume * shown;
         sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
         sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
         sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);
@@ -183,6 +189,9 @@ static double find_error(const mor_soil_energy *energy, const double *now, doubl
     for (int part = 0; part < PARTS; ++part) {
         const double before = energy->reach > 0.0 ? energy->previous[part] : energy->power[part];
         const double line = before + share * (now[part] - before);
+        if (!isfinite(now[part])) {
+            continue; /* of a law without an energy */
+        }
         error += 0.5 * (energy->reach > 0.0 ? both * fabs(energy->power[part] - line) : reach * fabs(now[part] - line));
     }
     return error;
@@ -224,13 +233,13 @@ static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_s
     double size = 0.0;
     for (int part = 0; part < PARTS; ++part) {
         now[part] = energy->collected[part] / (double)n_steps;
-        size += fabs(now[part]);
+        size += isfinite(now[part]) ? fabs(now[part]) : 0.0;
     }
     const double error = is_first ? 0.0 : find_error(energy, now, reach);
     for (int part = 0; part < PARTS; ++part) {
         const double before = is_first ? now[part] : energy->power[part];
         energy->integral[part] += 0.5 * (before + now[part]) * reach;
-        energy->turnover += 0.5 * (fabs(before) + fabs(now[part])) * reach;
+        energy->turnover += isfinite(now[part]) ? 0.5 * (fabs(before) + fabs(now[part])) * reach : 0.0;
     }
     energy->stride = choose_stride(energy, error, size * SOON * step->length, find_longest(n_particles));
     energy->reach = is_first ? 0.0 : reach;

@@ -344,7 +344,12 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
                                      .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
                                      .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
                                      .stress = mor_view_write(view, MOR_FIELD_STRESS),
-                                     .separation = mor_view_write(view, MOR_FIELD_SEPARATION)};
+                                     .separation = mor_view_write(view, MOR_FIELD_SEPARATION),
+                                     .counts_lost = soil->settings.scheme.density_reinitialization > 0};
+    if (mor_soil_energy_is_due(soil, step)) {
+        job.update.shown = soil->energy->shown;
+        memset(soil->energy->shown, 0, (size_t)soil->set.n_particles * sizeof *soil->energy->shown);
+    }
     for (int k = 0; k < soil->n_kinds; ++k) {
         const mor_soil_kind *kind = &soil->kinds[k];
         job.update.stiffness[k] = kind->reference_density * kind->sound_speed * kind->sound_speed;

@@ -80,7 +80,7 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
 {
     mor_soil *soil = owner;
     const int interval = soil->settings.scheme.density_reinitialization;
-    if (step->number == 0 || step->number % (uint64_t)interval != 0) {
+    if (step->number % (uint64_t)interval != 0) {
         return MOR_OK;
     }
     const double *mass = mor_view_read(view, MOR_FIELD_MASS);
@@ -115,7 +115,11 @@ mor_status mor_soil_reinitialize_density(mor_context *context, void *owner, mor_
             separation[i] = mor_separation_bound(separation[i], summed / reference);
             around *= exp(-separation[i]);
         }
-        density[i] = missing > 0.0 ? summed + missing * around / density[i] : summed;
+        const double found = missing > 0.0 ? summed + missing * around / density[i] : summed;
+        if (separation != NULL && separation[i] <= 0.0) {
+            separation[i] = mor_separation_correct(separation[i], found / density[i], summed / reference);
+        }
+        density[i] = found;
         double *record = records + i * MOR_RECORD_SIZE;
         record[MOR_RECORD_VOLUME] = mass[i] / density[i];
         record[MOR_RECORD_IMPEDANCE] = density[i] * mor_soil_kind_of(soil, i)->sound_speed;

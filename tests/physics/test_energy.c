@@ -318,9 +318,35 @@ static void driven_rock_gives_what_its_force_does_along_its_way(void **state)
     scene_free(it);
 }
 
+static const char rest[] =
+    "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, '-9.81 m/s2', 0);"
+    "domain = { min = (-0.1, -0.1, -1); max = (0.3, 0.5, 1); };"
+    "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0); max = (0.2, 0.2); };"
+    "  initial_stress = { type = 'k0'; lateral_ratio = 0.5; };"
+    "  material = { model = 'hypoplastic_sand'; density = 1700; critical_friction_angle = '33 deg';"
+    "    granulate_hardness = '0.1 GPa'; exponent = 0.27; densest_void_ratio = 0.68; critical_void_ratio = 1.05;"
+    "    loosest_void_ratio = 1.2; alpha = 0.14; beta = 2.5; void_ratio = 0.85; }; } );"
+    "walls = ( { name = 'floor'; friction = 'rough';"
+    "    shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 1, 0); }; } );"
+    "probes = ( { type = 'riemann_energy'; } );";
+
+/* A law that does not tell its energy leaves parts without a number; the others are sampled as rarely as of any law. */
+static void laws_without_an_energy_are_not_sampled_in_each_step(void **state)
+{
+    (void)state;
+    scene *it = make(rest, nothing);
+    scene_step(it, 200);
+    const mor_soil_energy *energy = it->simulation.soil.energy;
+    assert_false(isfinite(energy->power[MOR_SOIL_ENERGY_PLASTIC]));
+    assert_true(isfinite(energy->turnover));
+    assert_int_equal(energy->stride, 2); /* the most of so few particles */
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(laws_without_an_energy_are_not_sampled_in_each_step),
         cmocka_unit_test(free_fall_turns_height_into_speed_and_nothing_else),
         cmocka_unit_test(elastic_bounce_gains_nothing),
         cmocka_unit_test(artificial_stress_gives_a_block_that_rings_no_energy),

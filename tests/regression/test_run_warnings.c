@@ -65,21 +65,23 @@ static void warnings_stand_in_the_summary_also_after_a_resume(void **state)
     free(text);
 }
 
-/* A heap that collapses: with shifting its particles crowd, which a warning at the start foretells and one at the end
- * measures, without a probe that asked; without shifting neither is there. */
+/* A heap that collapses: with shifting its particles crowd where laws do not learn of it, which a warning at the start
+ * foretells and one at the end measures, without a probe that asked; without shifting neither is there. */
 static void soil_that_crowds_is_warned_of_at_the_end(void **state)
 {
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
     finished_run_store_case(folder, path);
     for (int k = 0; k < 2; ++k) {
-        const char *const arguments[] = {"run", path,
-                                         "-t",  "1",
-                                         "-o",  k == 0 ? "shifted" : "plain",
-                                         "-s",  "end=0.4 s",
-                                         "-s",  "probes=({ type = \"height\"; })",
-                                         "-s",  k == 0 ? "numerics.shifting=true" : "numerics.shifting=false",
-                                         NULL};
+        const char *const arguments[] = {
+            "run", path,
+            "-t",  "1",
+            "-o",  k == 0 ? "shifted" : "plain",
+            "-s",  "end=0.4 s",
+            "-s",  "probes=({ type = \"height\"; })",
+            "-s",  k == 0 ? "numerics.shifting=true" : "numerics.shifting=false",
+            "-s",  k == 0 ? "numerics.separation_memory=false" : "numerics.separation_memory=true",
+            NULL};
         program_outcome outcome = program_run(folder, arguments, 0);
         char *text = load_summary(folder, k == 0 ? "shifted" : "plain");
         if (k == 0) {

@@ -314,7 +314,7 @@ static void fill_drifts(const void *argument, int64_t first, int64_t n, double *
         const int64_t particle = job.index != NULL ? job.index[first + i] : first + i;
         const double reference = job.reference > 0.0 ? job.reference : mor_soil_reference_density(job.soil, particle);
         const double ratio = job.density[first + i] / reference;
-        const double least = separation != NULL ? exp(-separation[particle]) : 1.0;
+        const double least = separation != NULL ? exp(-fmax(separation[particle], 0.0)) : 1.0;
         values[i] = fmax(ratio - 1.0, fmax(1.0 - ratio / least, 0.0));
     }
 }

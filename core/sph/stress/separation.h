@@ -9,23 +9,33 @@
 #include <stdbool.h>
 
 /** @file
- *  Soil that has come apart. A law in rate form builds up stress from any state, however far its grains are from one
- *  another. By how much soil has opened without a stress to show for it is kept here, as the volumetric strain of
- *  separation, and closes again before the law sees compression. docs/theory/separation.md. */
+ *  Soil that has come apart, and soil that has lost compression. A law in rate form builds up stress from any state,
+ *  however far its grains are from one another. By how much soil has opened without a stress to show for it is kept
+ *  here, as the volumetric strain of separation, and closes again before the law sees compression. By how much soil has
+ *  been compressed without such a stress is kept as the same strain, negative: what goes beyond a bound the law is
+ *  shown. docs/theory/separation.md. */
 
 /** MOR_SEPARATION_ZERO: stresses are zero up to this part of the stiffness rho_0 c_0^2, 1: far above the rounding of a
  *  return to the apex, far below any stress of interest. MOR_SEPARATION_ELASTIC: least rise of the mean stress of an
- *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more. MOR_SEPARATION_SLACK:
- *  largest separation over the part of the density that is missing, 1. */
+ *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more, and soil may be up to
+ *  fifteen times softer than the speed of sound of its law tells. MOR_SEPARATION_SLACK: largest separation over the
+ *  part of the density that is missing, 1. MOR_SEPARATION_LOST: lost compression up to which the law is shown nothing,
+ *  1: sums over disordered neighbors scatter by some percent. MOR_SEPARATION_SHOWN: part of what goes beyond that is
+ *  shown in a step, 1; a wave crosses a particle in a few. MOR_SEPARATION_UNKNOWN: value at the start, 1, until a
+ *  density was found by summation, which tells how particles were placed, at walls above all; then losses count. */
 #define MOR_SEPARATION_ZERO 1.0e-13
-#define MOR_SEPARATION_ELASTIC 0.25
+#define MOR_SEPARATION_ELASTIC 0.02
 #define MOR_SEPARATION_SLACK 10.0
+#define MOR_SEPARATION_LOST 0.1
+#define MOR_SEPARATION_SHOWN 0.05
+#define MOR_SEPARATION_UNKNOWN (-1.0e-300)
 
 /** What a law sees of the strain of a step. */
 typedef struct mor_separation_part {
     double share; /* of all of it, 0 to 1, 1 */
-    double taken; /* volumetric strain to be added to that share: what closes without stress, >= 0, 1 */
-    double left;  /* strain of separation after the step, as far as nothing opens, >= 0, 1 */
+    double taken; /* volumetric strain to be added to that share, 1: what closes without stress, >= 0; minus what it is
+                   * shown of lost compression, <= 0 */
+    double left;  /* strain of separation after the step, as far as nothing opens, 1 */
 } mor_separation_part;
 
 /** Returns whether a stress, shape [6], unit Pa, is zero up to a bound, unit Pa. */
@@ -91,6 +101,36 @@ static inline double mor_separation_open(double strain, const double *before, co
 static inline double mor_separation_bound(double separation, double ratio)
 {
     return mor_min(separation, MOR_SEPARATION_SLACK * mor_max(1.0 - ratio, 0.0));
+}
+
+/** Finds what the law sees of a step of soil that has lost compression: all of it, and of what is lost beyond a bound a
+ *  part (A7).
+ *  @param separation [in]  strain of separation before the step, <= 0, 1 */
+static inline mor_separation_part mor_separation_show(double separation)
+{
+    const double shown = MOR_SEPARATION_SHOWN * mor_max(-separation - MOR_SEPARATION_LOST, 0.0);
+    return (mor_separation_part){.share = 1.0, .taken = -shown, .left = separation + shown};
+}
+
+/** Returns the strain of separation, <= 0, 1, of soil after stress came or went that no strain goes with (A5).
+ *  @param separation [in]  before, <= 0, 1
+ *  @param diffused   [in]  mean stress that came, tension positive, Pa
+ *  @param stiffness  [in]  rho_0 c_0^2, Pa */
+static inline double mor_separation_lose(double separation, double diffused, double stiffness)
+{
+    return separation == MOR_SEPARATION_UNKNOWN ? separation : mor_min(separation - diffused / stiffness, 0.0);
+}
+
+/** Returns the strain of separation, <= 0, 1, of soil whose density was found by summation (A6): what the rates have
+ *  missed of its compression is lost; no more than all compression since the start is.
+ *  @param separation [in]  before, <= 0, 1
+ *  @param change     [in]  density that was found over that of the rates, > 0, 1
+ *  @param ratio      [in]  density by summation over that at the start, > 0, 1 */
+static inline double mor_separation_correct(double separation, double change, double ratio)
+{
+    return separation == MOR_SEPARATION_UNKNOWN
+               ? 0.0
+               : mor_min(mor_max(separation - log(change), -log(mor_max(ratio, 1.0))), 0.0);
 }
 
 #endif

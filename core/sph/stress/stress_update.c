@@ -36,16 +36,19 @@ static double find_stiffness(const mor_stress_update *it, int64_t i)
 
 static mor_separation_part find_part(const mor_stress_update *it, int64_t i)
 {
-    return it->separation != NULL && it->separation[i] > 0.0
+    if (it->separation == NULL || it->separation[i] == 0.0) {
+        return (mor_separation_part){.share = 1.0};
+    }
+    return it->separation[i] > 0.0
                ? mor_separation_find(it->separation[i], find_strain(it, i), it->stress + 6 * i, find_stiffness(it, i))
-               : (mor_separation_part){.share = 1.0};
+               : mor_separation_show(it->separation[i]);
 }
 
 static void apply_part(const mor_stress_update *it, int64_t i, mor_separation_part part, double *velocity_gradient,
                        double *diffusion)
 {
     for (int a = 0; a < 9; ++a) {
-        const double closing = a % 4 == 0 ? part.taken / (3.0 * it->length) : 0.0;
+        const double closing = a % 4 == 0 && part.taken != 0.0 ? part.taken / (3.0 * it->length) : 0.0;
         velocity_gradient[a] = part.share * it->velocity_gradient[9 * i + a] + closing;
     }
     for (int a = 0; a < 6; ++a) {
@@ -62,25 +65,32 @@ static void find_seen(const mor_stress_update *it, int64_t first, int64_t n, see
 {
     s->is_less = false;
     for (int64_t i = 0; i < n && it->separation != NULL; ++i) {
-        s->is_less = s->is_less || it->separation[first + i] > 0.0;
+        s->is_less = s->is_less || it->separation[first + i] != 0.0;
     }
     for (int64_t i = 0; i < n && s->is_less; ++i) {
         const mor_separation_part part = find_part(it, first + i);
         s->separation[i] = part.left;
+        if (it->shown != NULL) {
+            it->shown[first + i] = mor_min(part.taken, 0.0);
+        }
         apply_part(it, first + i, part, s->velocity_gradient + 9 * i, s->diffusion + 6 * i);
     }
 }
 
-/* Adds what has opened.
+/* Adds what has opened, and what compression is lost by diffusion.
  *  start: shape [n, 6], stress before the step, Pa */
 static void keep_separation(const mor_stress_update *it, int64_t first, int64_t n, const seen *s, const double *start)
 {
     for (int64_t k = 0; k < n && it->separation != NULL; ++k) {
         const int64_t i = first + k;
         const double diffused = it->diffusion != NULL ? it->length * mor_separation_mean(it->diffusion + 6 * i) : 0.0;
+        const double stiffness = find_stiffness(it, i);
+        double kept = s->is_less ? s->separation[k] : 0.0;
+        if (it->counts_lost && kept <= 0.0) {
+            kept = mor_separation_lose(kept, diffused, stiffness);
+        }
         it->separation[i] =
-            (s->is_less ? s->separation[k] : 0.0) +
-            mor_separation_open(find_strain(it, i), start + 6 * k, it->stress + 6 * i, diffused, find_stiffness(it, i));
+            kept + mor_separation_open(find_strain(it, i), start + 6 * k, it->stress + 6 * i, diffused, stiffness);
     }
 }
 

@@ -12,7 +12,7 @@
 
 /** @file
  *  A material's update of stress and state over a step, batch by batch: retries with smaller steps, code that crashes,
- *  and soil that has come apart. */
+ *  and soil that has come apart or lost compression. */
 
 /** MOR_STRESS_BATCH: particles handed to a material at once. MOR_STRESS_HALVINGS: how often a batch may ask for a
  *  smaller step before the run stops. MOR_STRESS_SOILS_MAX: soils. */
@@ -31,7 +31,10 @@ typedef struct mor_stress_update {
     const double *diffusion;                 /* shape [n, 6]; rate of stress beside the law's, Pa/s; NULL: none */
     double *stress;                          /* shape [n, 6]; Pa */
     double *separation;                      /* shape [n]; volumetric strain of separation, 1; NULL: none is kept */
-    double *state[MOR_MATERIAL_STATES_MAX];  /* shape [n_state][n, width]; units of the law's schema */
+    double *shown;    /* shape [n]; written where soil has lost compression: volumetric strain that
+                                              * the law sees beside that of the motion, <= 0, 1; NULL: not asked for */
+    bool counts_lost; /* compression that is lost by diffusion counts; needs densities by summation */
+    double *state[MOR_MATERIAL_STATES_MAX]; /* shape [n_state][n, width]; units of the law's schema */
 } mor_stress_update;
 
 /** Which update of a batch failed. */

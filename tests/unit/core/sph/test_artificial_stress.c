@@ -14,14 +14,16 @@ static const double strength = 1.0e4; /* largest principal stress, Pa */
 static const char plane[] =
     "dimension = 2; spacing = '0.1 m'; end = '1 s'; gravity = (0, 0, 0);"
     "domain = { min = (-1, -1, -1); max = (3, 3, 1); };"
-    "lattice = { jitter = 0.2; }; numerics = { artificial_stress = true; lattice_normalization = false; };"
+    "lattice = { jitter = 0.2; }; numerics = { artificial_stress = true; lattice_normalization = false;"
+    "  density_reinitialization = 0; };"
     "soil = ( { name = 'block'; shape = { type = 'box'; min = (0, 0); max = (1.5, 1); };"
     "  material = { model = 'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } );";
 
 static const char space[] =
     "dimension = 3; spacing = '0.1 m'; end = '1 s'; gravity = (0, 0, 0);"
     "domain = { min = (-1, -1, -1); max = (3, 3, 3); };"
-    "lattice = { jitter = 0.2; }; numerics = { artificial_stress = true; lattice_normalization = false; };"
+    "lattice = { jitter = 0.2; }; numerics = { artificial_stress = true; lattice_normalization = false;"
+    "  density_reinitialization = 0; };"
     "soil = ( { name = 'block'; shape = { type = 'box'; min = (0, 0, 0); max = (0.6, 0.6, 0.6); };"
     "  material = { model = 'hypoelastic'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3; }; } );";
 

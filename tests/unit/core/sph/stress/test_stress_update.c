@@ -5,7 +5,7 @@
 #include "core/sph/stress/stress_update.h"
 #include "tests/common/law_point.h"
 
-/* Soil that comes apart and closes again, docs/theory/separation.md. */
+/* Soil that comes apart and closes again, and soil that loses compression: docs/theory/separation.md. */
 
 enum { N = 5 };
 
@@ -216,6 +216,80 @@ static void what_the_law_sees_of_open_soil_is_told(void **state)
     law_point_close(&s.law);
 }
 
+/* Compression whose pressure diffuses away is lost: the pressure and what is lost are always those of all compression,
+ * and what is lost beyond a bound comes back. */
+static void pressure_and_lost_compression_add_up_to_the_compression(void **state)
+{
+    (void)state;
+    enum { PRESSED = 200, WAIT = 400 };
+    double diffusion[6 * N] = {0.0};
+    double shown[N] = {0.0};
+    double sum = 0.0;
+    sample s;
+    open_sample(&s, 0.5, 0.0, true);
+    s.update.diffusion = diffusion;
+    s.update.counts_lost = true;
+    s.update.shown = shown;
+    strain(&s, 2, -0.01, 0.0);
+    for (int k = 1; k <= PRESSED + WAIT; ++k) {
+        const bool is_pressed = k <= PRESSED;
+        for (int a = 0; a < 3; ++a) {
+            diffusion[12 + a] = is_pressed ? BULK * 1e-3 / s.update.length : 0.0;
+        }
+        strain(&s, 2, is_pressed ? -1e-3 : 0.0, 0.0);
+        sum += shown[2];
+        const double all = 0.01 + 1e-3 * fmin(k, PRESSED);
+        assert_true(fabs(pressure_of(&s, 2) / BULK - s.separation[2] - all) < 1e-12); /* rounding of 600 sums */
+    }
+    /* A part of what goes beyond the bound comes back in each step. */
+    const double left = 0.1 * pow(1.0 - MOR_SEPARATION_SHOWN, WAIT);
+    assert_true(s.separation[2] <= -MOR_SEPARATION_LOST && s.separation[2] > -MOR_SEPARATION_LOST - left - 1e-12);
+    assert_true(fabs(sum + 0.2 + s.separation[2]) < 1e-12);
+    assert_true(pressure_of(&s, 1) == 0.0 && s.separation[1] == 0.0 && shown[1] == 0.0);
+    law_point_close(&s.law);
+}
+
+/* Where densities are not found by summation nothing bounds a loss, and none is kept. */
+static void losses_count_only_where_densities_are_summed(void **state)
+{
+    (void)state;
+    double diffusion[6 * N] = {0.0};
+    sample s;
+    open_sample(&s, 0.5, 0.0, true);
+    s.update.diffusion = diffusion;
+    diffusion[12] = diffusion[13] = diffusion[14] = BULK * 1e-3 / s.update.length;
+    strain(&s, 2, -0.01, 0.0);
+    assert_true(s.separation[2] == 0.0);
+    assert_true(mor_separation_lose(MOR_SEPARATION_UNKNOWN, BULK, BULK) == MOR_SEPARATION_UNKNOWN);
+    law_point_close(&s.law);
+}
+
+/* What sums find beyond the rates is lost, up to all compression that there is; the first sum tells nothing. */
+static void sums_tell_lost_compression_within_the_density(void **state)
+{
+    (void)state;
+    assert_true(fabs(mor_separation_correct(-0.02, 1.05, 1.2) + 0.02 + log(1.05)) < 1e-15); /* rounding */
+    assert_true(fabs(mor_separation_correct(-0.30, 1.05, 1.2) + log(1.2)) < 1e-15);
+    assert_true(mor_separation_correct(-0.02, 0.9, 1.2) == 0.0);
+    assert_true(mor_separation_correct(-0.30, 1.0, 0.98) == 0.0);
+    assert_true(mor_separation_correct(MOR_SEPARATION_UNKNOWN, 1.3, 1.3) == 0.0);
+}
+
+/* The speed of sound may be that of stiffer soil: tension that is elastic is none of separation. */
+static void elastic_tension_of_soil_softer_than_told_is_no_separation(void **state)
+{
+    (void)state;
+    sample s;
+    open_sample(&s, 0.5, 1e9, true);
+    s.update.stiffness[0] = 15.0 * BULK;
+    for (int k = 0; k < 300; ++k) {
+        strain(&s, 2, k < 100 ? 1e-5 : -1e-5, 0.0);
+        assert_true(s.separation[2] == 0.0);
+    }
+    assert_true(fabs(pressure_of(&s, 2) - BULK * 1e-3) < 1e-12 * BULK); /* rounding */
+    law_point_close(&s.law);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +301,10 @@ int main(void)
         cmocka_unit_test(soil_as_dense_as_before_has_closed),
         cmocka_unit_test(stiffness_is_that_of_the_soil_of_the_particle),
         cmocka_unit_test(what_the_law_sees_of_open_soil_is_told),
+        cmocka_unit_test(pressure_and_lost_compression_add_up_to_the_compression),
+        cmocka_unit_test(losses_count_only_where_densities_are_summed),
+        cmocka_unit_test(sums_tell_lost_compression_within_the_density),
+        cmocka_unit_test(elastic_tension_of_soil_softer_than_told_is_no_separation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
