@@ -156,8 +156,9 @@ static mor_status draw_gauge(mor_context *context, const mor_table_data *data, c
     }
     snprintf(name, sizeof name, "images/gauge_%s_map.png", the_case->gauges[gauge].name);
     MOR_TRY(context, mor_durable_file_join(context, path, folder, name));
-    MOR_TRY(context, mor_gauge_map_picture_draw(context, &the_case->gauges[gauge], map, path));
-    if (access(path, F_OK) == 0) { /* no force on it, no picture */
+    bool is_drawn = false;
+    MOR_TRY(context, mor_gauge_map_picture_draw(context, &the_case->gauges[gauge], map, path, &is_drawn));
+    if (is_drawn) {
         fprintf(output, "chart: %s\n", path);
     }
     return MOR_OK;

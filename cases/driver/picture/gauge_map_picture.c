@@ -141,7 +141,8 @@ static mor_status draw(mor_context *context, const sheet *s, const char *title, 
     mor_canvas *canvas = NULL;
     mor_axes axes;
     set_axes(s, &axes);
-    MOR_TRY(context, mor_canvas_new(context, &canvas, WIDTH, HEIGHT));
+    const double lower = axes.rectangle[1] + axes.rectangle[3] + mor_axes_lower_room(TEXT);
+    MOR_TRY(context, mor_canvas_new(context, &canvas, WIDTH, (int)ceil(lower))); /* no higher than the map asks for */
     draw_cells(canvas, s, &axes);
     mor_axes_draw(canvas, &axes);
     draw_bar(canvas, s, &axes);
@@ -179,7 +180,7 @@ static mor_status draw_profile(mor_context *context, const sheet *s, const char 
 }
 
 mor_status mor_gauge_map_picture_draw(mor_context *context, const mor_case_gauge *gauge, const char *table,
-                                      const char *path)
+                                      const char *path, bool *is_drawn)
 {
     mor_table_data data;
     char title[LABEL_BYTES + MOR_CASE_NAME_BYTES];
@@ -190,9 +191,10 @@ mor_status mor_gauge_map_picture_draw(mor_context *context, const mor_case_gauge
     const bool is_profile = s.high[0] - s.low[0] < 1.5 * s.cell[0];
     snprintf(title, sizeof title, "gauge %s: %s", gauge->name,
              is_profile ? "pressure over height" : "peak pressure of the soil, seen along its direction");
-    const mor_status status = !(s.largest > 0.0) ? MOR_OK
-                              : is_profile       ? draw_profile(context, &s, title, path)
-                                                 : draw(context, &s, title, path);
+    *is_drawn = s.largest > 0.0;
+    const mor_status status = !*is_drawn   ? MOR_OK
+                              : is_profile ? draw_profile(context, &s, title, path)
+                                           : draw(context, &s, title, path);
     mor_table_data_clear(context, &data);
     return status;
 }
