@@ -145,6 +145,7 @@ static mor_status read_rocks(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, mor_case_reader_group(reader, node, &mor_case_rocks_group, rocks));
     MOR_TRY(reader->context, check_amount(reader, node, rocks));
     rocks->body.axis[2] = 1.0;
+    rocks->body.removed_at = NAN; /* never */
     rocks->gap = isnan(rocks->gap) ? reader->spacing : rocks->gap;
     rocks->margin = isnan(rocks->margin) ? reader->spacing : rocks->margin;
     MOR_TRY(reader->context, mor_case_reader_in_plane(reader, node, "velocity", rocks->body.velocity));

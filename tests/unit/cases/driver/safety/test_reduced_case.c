@@ -107,6 +107,22 @@ static void the_start_follows_what_the_case_asks_for(void **state)
     end(&plain);
 }
 
+/* Packed rocks stay for ever, as bodies do that are listed. */
+static void slopes_with_packed_rocks_have_a_factor(void **state)
+{
+    (void)state;
+    loaded l =
+        load(HEAD SOIL("") "rocks = ( { name = \"stone\"; count = 2; seed = 1;\n"
+                           "  region = { type = \"box\"; min = (0, 0); max = (2, 2); };\n"
+                           "  sizes = ( { diameter = 0.5; passing = 1.0; } ); forms = ( { type = \"sphere\"; } );\n"
+                           "  material = { model = \"rigid\"; density = 2500; }; } );");
+    assert_int_equal(l.it->the_case.n_bodies, 3);
+    for (int k = 0; k < 3; ++k) {
+        assert_true(isnan(l.it->the_case.bodies[k].removed_at));
+    }
+    end(&l);
+}
+
 static void expect_refusal(const char *text, const char *part)
 {
     mor_session *session = NULL;
@@ -162,6 +178,7 @@ static void soil_that_may_leave_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slopes_with_packed_rocks_have_a_factor),
         cmocka_unit_test(friction_of_soil_is_reduced_and_rocks_stay),
         cmocka_unit_test(nothing_moves_and_lateral_stress_is_that_of_the_whole_strength),
         cmocka_unit_test(the_start_follows_what_the_case_asks_for),
