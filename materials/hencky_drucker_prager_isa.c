@@ -45,12 +45,18 @@ static mor_status advance_point(const void *constants, mor_rate_point *p)
         mor_symmetric_write(p->stress, state);
         return MOR_OK;
     }
-    strain = mor_symmetric_add(mor_log_strain_advance(strain, p->gradient), volume,
-                               mor_log_strain_of_stress(&m->elastic, p->extra));
+    const mor_symmetric start = strain;
+    const mor_symmetric exact = mor_log_strain_advance(start, p->gradient);
+    const mor_symmetric diffused = mor_log_strain_of_stress(&m->elastic, p->extra);
+    strain = mor_symmetric_add(exact, volume, diffused);
     const double opening = mor_invariant_i1(strain);
     const double pressure = opening < 0.0 ? -m->elastic.bulk * opening : 0.0;
-    const double root = m->elastic.two_shear * sqrt(mor_invariant_j2(strain));
     const double limit = m->friction * pressure;
+    double root = m->elastic.two_shear * sqrt(mor_invariant_j2(strain));
+    if (root > limit * (1.0 + YIELD_ROUNDING) && limit > 0.0) {
+        strain = mor_symmetric_add(mor_log_strain_flow(start, p->gradient, exact), volume, diffused);
+        root = m->elastic.two_shear * sqrt(mor_invariant_j2(strain));
+    }
     if (root > limit * (1.0 + YIELD_ROUNDING) || opening > 0.0) {
         const double end = limit < root ? limit : root;
         strain = mor_symmetric_rescale(strain, end / (root > 0.0 ? root : 1.0), opening < 0.0 ? opening / 3.0 : 0.0);

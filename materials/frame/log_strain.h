@@ -136,6 +136,39 @@ static inline mor_symmetric mor_log_strain_advance(mor_symmetric strain, mor_gra
     return mor_log_strain_of_stretch(sum);
 }
 
+/** Returns the logarithmic strain after a step that flows, unit 1: the more the stretch of the step exceeds the strain at
+ * its start, the more of it comes after the rotation, (D6) of docs/theory/drucker_prager.md, for flow keeps nothing of
+ * how the step began. exp(L dt) has half of it before. The volume is that of both.
+ *  @param strain [in]  at the start; unit 1
+ *  @param motion [in]  velocity gradient times the step, norm at most 1; unit 1
+ *  @param exact  [in]  strain after the step without plastic flow; unit 1 */
+static inline mor_symmetric mor_log_strain_flow(mor_symmetric strain, mor_gradient motion, mor_symmetric exact)
+{
+    const mor_symmetric stretch = mor_gradient_strain(motion);
+    const double j2 = mor_invariant_j2(strain);
+    const double added = mor_invariant_j2(stretch);
+    const double ratio = j2 * j2 / (j2 * j2 + added * added + DBL_MIN);
+    const double share = ratio * ratio;
+    const mor_gradient spin = {.xy = 0.5 * (motion.xy - motion.yx),
+                               .yx = 0.5 * (motion.yx - motion.xy),
+                               .yz = 0.5 * (motion.yz - motion.zy),
+                               .zy = 0.5 * (motion.zy - motion.yz),
+                               .zx = 0.5 * (motion.zx - motion.xz),
+                               .xz = 0.5 * (motion.xz - motion.zx)};
+    const mor_gradient only = {.xx = stretch.xx,
+                               .yy = stretch.yy,
+                               .zz = stretch.zz,
+                               .xy = stretch.xy,
+                               .yx = stretch.xy,
+                               .yz = stretch.yz,
+                               .zy = stretch.yz,
+                               .zx = stretch.zx,
+                               .xz = stretch.zx};
+    const mor_symmetric after = mor_log_strain_advance(mor_log_strain_advance(strain, spin), only);
+    return mor_symmetric_add(mor_symmetric_rescale(after, 1.0 - share, (1.0 - share) * mor_invariant_i1(after) / 3.0),
+                             share, exact);
+}
+
 /** Returns the Kirchhoff stress of a logarithmic strain by Hooke's law, unit Pa. */
 static inline mor_symmetric mor_log_strain_stress(const mor_hooke *c, mor_symmetric strain)
 {
