@@ -136,9 +136,9 @@ static inline mor_symmetric mor_log_strain_advance(mor_symmetric strain, mor_gra
     return mor_log_strain_of_stretch(sum);
 }
 
-/** Returns the logarithmic strain after a step that flows, unit 1: the more the stretch of the step exceeds the strain at
- * its start, the more of it comes after the rotation, (D6) of docs/theory/drucker_prager.md, for flow keeps nothing of
- * how the step began. exp(L dt) has half of it before. The volume is that of both.
+/** Returns the logarithmic strain after a step that flows, unit 1: the more the stretch of the step exceeds the strain
+ * at its start, the more of it comes after the rotation, (D6) of docs/theory/drucker_prager.md, for flow keeps nothing
+ * of how the step began. exp(L dt) has half of it before. The volume is that of both.
  *  @param strain [in]  at the start; unit 1
  *  @param motion [in]  velocity gradient times the step, norm at most 1; unit 1
  *  @param exact  [in]  strain after the step without plastic flow; unit 1 */
