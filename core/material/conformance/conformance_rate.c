@@ -149,7 +149,8 @@ static void allow_iteration(const mor_bench *bench, mor_conformance_row *row)
     }
 }
 
-static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
+/* part: of the strains of the bench in a step, 1 */
+static void rotate_with_strains(mor_bench *bench, mor_conformance_row *row, double part)
 {
     enum { STEPS = 1000 };
     static const double ANGLE = 0.4;
@@ -160,7 +161,7 @@ static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
     *still = bench->start;
     memset(still->extra, 0, sizeof still->extra);
     for (int k = 0; k < 9 * N; ++k) {
-        still->motion[k] *= 0.1;
+        still->motion[k] *= part;
     }
     *turning = *still;
     const double omega = ANGLE / (STEPS * bench->time_step);
@@ -187,6 +188,16 @@ static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
             take_of_path(bench, row, i, STEPS, fabs(back - here[m]) / scale);
         }
     }
+}
+
+static void rotate_with_the_frame(mor_bench *bench, mor_conformance_row *row)
+{
+    rotate_with_strains(bench, row, 0.1);
+}
+
+static void rotate_while_hardly_strained(mor_bench *bench, mor_conformance_row *row)
+{
+    rotate_with_strains(bench, row, 3e-3);
 }
 
 static void take_yield_distance(mor_bench *bench, const mor_bench_arrays *arrays, mor_conformance_row *row)
@@ -509,6 +520,8 @@ const mor_bench_entry mor_bench_rate_laws[] = {
     {"a rigid spin keeps the invariants", keep_invariants_in_spin, 1e-12, "rounding of 200 steps"},
     {"a superposed rotation turns the stress with it", rotate_with_the_frame, 2e-4,
      "half of the rotation of a step, 4e-4 rad: strain is that of its middle or of its end"},
+    {"where strains are small it does so to second order", rotate_while_hardly_strained, 1.6e-7,
+     "square of the rotation of a step, 4e-4 rad"},
     {"the stress ends admissible", end_admissible, 1e-9, "rounding of the return mapping"},
     {"extreme input ends finite and admissible or is refused", survive_extremes, 1e-9, "rounding, large stresses"},
     {"dissipation is not negative", dissipate, 0.0, "exact"},
