@@ -189,7 +189,7 @@ static double find_error(const mor_soil_energy *energy, const double *now, doubl
     for (int part = 0; part < PARTS; ++part) {
         const double before = energy->reach > 0.0 ? energy->previous[part] : energy->power[part];
         const double line = before + share * (now[part] - before);
-        if (!isfinite(now[part])) {
+        if (!isfinite(line + now[part])) {
             continue; /* of a law without an energy */
         }
         error += 0.5 * (energy->reach > 0.0 ? both * fabs(energy->power[part] - line) : reach * fabs(now[part] - line));
@@ -239,7 +239,7 @@ static void integrate(mor_soil_energy *energy, const mor_step *step, int64_t n_s
     for (int part = 0; part < PARTS; ++part) {
         const double before = is_first ? now[part] : energy->power[part];
         energy->integral[part] += 0.5 * (before + now[part]) * reach;
-        energy->turnover += isfinite(now[part]) ? 0.5 * (fabs(before) + fabs(now[part])) * reach : 0.0;
+        energy->turnover += isfinite(before + now[part]) ? 0.5 * (fabs(before) + fabs(now[part])) * reach : 0.0;
     }
     energy->stride = choose_stride(energy, error, size * SOON * step->length, find_longest(n_particles));
     energy->reach = is_first ? 0.0 : reach;

@@ -343,9 +343,27 @@ static void laws_without_an_energy_are_not_sampled_in_each_step(void **state)
     scene_free(it);
 }
 
+/* Samples are rare while soil flies, follow one another in each step of the impact, and are rare again afterwards: the
+ * rock is within the kernel of the soil from the start and stops it within 30 ms; found: each step from 6 to 28 ms. */
+static void powers_are_sampled_in_each_step_only_while_they_change_fast(void **state)
+{
+    (void)state;
+    static const struct {
+        double time;
+        int64_t stride;
+    } expected[] = {{0.004, 2}, {0.010, 1}, {0.020, 1}, {0.045, 2}}; /* s; steps, 2 at most of so few particles */
+    scene *it = make(impact, nothing);
+    for (int k = 0; k < 4; ++k) {
+        scene_advance(it, expected[k].time);
+        assert_int_equal(it->simulation.soil.energy->stride, expected[k].stride);
+    }
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(powers_are_sampled_in_each_step_only_while_they_change_fast),
         cmocka_unit_test(laws_without_an_energy_are_not_sampled_in_each_step),
         cmocka_unit_test(free_fall_turns_height_into_speed_and_nothing_else),
         cmocka_unit_test(elastic_bounce_gains_nothing),
