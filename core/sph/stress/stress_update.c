@@ -16,7 +16,7 @@ typedef struct batch_start {
 
 /* What the law sees of the step, particle by particle. */
 typedef struct seen {
-    bool is_less;             /* of some particle it is not all */
+    bool is_less;             /* of some particle it is not all of it, or more */
     double separation[BATCH]; /* after the step, as far as nothing opens */
     double velocity_gradient[BATCH * 9];
     double diffusion[BATCH * 6];
@@ -34,10 +34,16 @@ static double find_stiffness(const mor_stress_update *it, int64_t i)
     return it->stiffness[of_soil != NULL ? (int)of_soil[MOR_PAIR_OF_SOIL_INDEX] : 0];
 }
 
+/* As of nearly all soil: neither open, nor has it lost more compression than is left alone. */
+static bool sees_all(const mor_stress_update *it, int64_t i)
+{
+    return it->separation == NULL || (it->separation[i] <= 0.0 && it->separation[i] >= -MOR_SEPARATION_LOST);
+}
+
 static mor_separation_part find_part(const mor_stress_update *it, int64_t i)
 {
-    if (it->separation == NULL || it->separation[i] == 0.0) {
-        return (mor_separation_part){.share = 1.0};
+    if (sees_all(it, i)) {
+        return (mor_separation_part){.share = 1.0, .left = it->separation != NULL ? it->separation[i] : 0.0};
     }
     return it->separation[i] > 0.0
                ? mor_separation_find(it->separation[i], find_strain(it, i), it->stress + 6 * i, find_stiffness(it, i))
@@ -64,8 +70,8 @@ void mor_stress_find_seen(const mor_stress_update *it, int64_t i, double *veloci
 static void find_seen(const mor_stress_update *it, int64_t first, int64_t n, seen *s)
 {
     s->is_less = false;
-    for (int64_t i = 0; i < n && it->separation != NULL; ++i) {
-        s->is_less = s->is_less || it->separation[first + i] != 0.0;
+    for (int64_t i = 0; i < n; ++i) {
+        s->is_less = s->is_less || !sees_all(it, first + i);
     }
     for (int64_t i = 0; i < n && s->is_less; ++i) {
         const mor_separation_part part = find_part(it, first + i);
@@ -85,7 +91,7 @@ static void keep_separation(const mor_stress_update *it, int64_t first, int64_t 
         const int64_t i = first + k;
         const double diffused = it->diffusion != NULL ? it->length * mor_separation_mean(it->diffusion + 6 * i) : 0.0;
         const double stiffness = find_stiffness(it, i);
-        double kept = s->is_less ? s->separation[k] : 0.0;
+        double kept = s->is_less ? s->separation[k] : it->separation[i];
         if (it->counts_lost && kept <= 0.0) {
             kept = mor_separation_lose(kept, diffused, stiffness);
         }
