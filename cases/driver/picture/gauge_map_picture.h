@@ -11,9 +11,9 @@
  *  A picture of the map of pressure of a gauge. */
 
 /** Draws the peak pressure of the soil in each cell, seen against the direction of the gauge.
- *  @param table   [in]      zero-terminated path of gauge_<name>_map.csv
- *  @param path    [in]      zero-terminated path of the picture
- *  @param is_drawn [out]    whether there was a force to show
+ *  @param table    [in]   zero-terminated path of gauge_<name>_map.csv
+ *  @param path     [in]   zero-terminated path of the picture
+ *  @param is_drawn [out]  whether there was a force to show
  *  Returns: MOR_OK, also where there is nothing to show; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_gauge_map_picture_draw(mor_context *context, const mor_case_gauge *gauge, const char *table,
                                       const char *path, bool *is_drawn);

@@ -20,7 +20,7 @@ typedef struct mor_pair_singles {
     float *artificial_stress; /* shape [capacity, 6], units as there; or NULL */
     float *strain_rate;       /* shape [capacity, MOR_PAIR_SINGLE_STRAIN], units as there; or NULL */
     float *of_soil;           /* shape [capacity, MOR_PAIR_OF_SOIL_SIZE], units as there; or NULL */
-    uint8_t *is_wide;         /* shape [capacity / 8]; clusters that the loops in mixed precision cannot tell apart */
+    uint8_t *is_wide;         /* shape [capacity / 8]; see mor_pair_singles_is_wide */
     int64_t capacity;         /* particles and images there is room for */
 } mor_pair_singles;
 
