@@ -31,7 +31,7 @@ mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
     MOR_TRY(context, MOR_NEW(context, &soil->energy->scratch, MOR_PAIR_POWERS * n, "audit of energy"));
     soil->energy->find_powers = mor_pair_audit_select(NULL);
     MOR_TRY(context, MOR_NEW(context, &soil->energy->strains, 12 * n, "audit of energy"));
-    MOR_TRY(context, MOR_NEW(context, &soil->energy->shown, n, "audit of energy"));
+    MOR_TRY(context, MOR_NEW(context, &soil->energy->restored, n, "audit of energy"));
     return MOR_NEW(context, &soil->energy->block_sums, mor_block_count(n) * PARTS, "blocks of the audit of energy");
 }
 
@@ -39,7 +39,7 @@ void mor_soil_clear_energy(mor_context *context, mor_soil *soil)
 {
     if (soil->energy != NULL) {
         MOR_FREE(context, &soil->energy->block_sums);
-        MOR_FREE(context, &soil->energy->shown);
+        MOR_FREE(context, &soil->energy->restored);
         MOR_FREE(context, &soil->energy->strains);
         MOR_FREE(context, &soil->energy->scratch);
         MOR_FREE(context, &soil->energy);
@@ -138,10 +138,11 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
         const double work = mor_soil_stress_power(middle + 6 * i, job->velocity_gradient + 9 * (first + i));
         const double *strains = job->soil->energy->strains + 12 * (first + i);
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
-        const double shown = mor_symmetric_trace(middle + 6 * i) / 3.0 * job->soil->energy->shown[first + i] / length;
+        const double restored =
+            mor_symmetric_trace(middle + 6 * i) / 3.0 * job->soil->energy->restored[first + i] / length;
         sums[MOR_SOIL_ENERGY_PLASTIC] +=
-            volume * (work + shown + spread - (stored[END][i] - stored[START][i]) / length);
-        sums[MOR_SOIL_ENERGY_CORRECTION] -= volume * shown;
+            volume * (work + restored + spread - (stored[END][i] - stored[START][i]) / length);
+        sums[MOR_SOIL_ENERGY_CORRECTION] -= volume * restored;
         sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
         sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
         sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);

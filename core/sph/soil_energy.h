@@ -28,7 +28,7 @@ typedef enum mor_soil_energy_part {
     MOR_SOIL_ENERGY_DAMPING,        /* velocity damping */
     MOR_SOIL_ENERGY_REGULARIZATION, /* XSPH and shifting */
     MOR_SOIL_ENERGY_CORRECTION,     /* gradient correction, the skew stress that conserves angular momentum, (E8), and
-                                     * lost compression that a law is shown, (A7) */
+                                     * lost compression that is restored, (A7) */
     MOR_SOIL_ENERGY_BOUNDARY,       /* friction and impact at walls and rocks, (E7) */
     MOR_SOIL_ENERGY_PASSED_ON,      /* minus what friction passes on to the stress of the soil, counted above, (E7) */
     MOR_SOIL_ENERGY_DRIVEN,         /* given to walls and rocks that move as prescribed */
@@ -56,9 +56,9 @@ typedef struct mor_soil_energy {
     double *scratch;                         /* shape [n_particles, MOR_PAIR_POWERS]; powers, W (W/m) */
     double *strains;                         /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
                                           * those that slip, 1/s */
-    double *shown;                           /* shape [n_particles]; strain of the step that laws were shown, 1 */
-    mor_pair_audit_loop find_powers;         /* of the pair forces */
-    double *block_sums;                      /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
+    double *restored;                /* shape [n_particles]; volumetric strain restored to laws in the step, 1 */
+    mor_pair_audit_loop find_powers; /* of the pair forces */
+    double *block_sums;              /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
 } mor_soil_energy;
 
 /** Switches the audit of a soil on.

@@ -347,8 +347,8 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
                                      .separation = mor_view_write(view, MOR_FIELD_SEPARATION),
                                      .counts_lost = soil->settings.scheme.density_reinitialization > 0};
     if (mor_soil_energy_is_due(soil, step)) {
-        job.update.shown = soil->energy->shown;
-        memset(soil->energy->shown, 0, (size_t)soil->set.n_particles * sizeof *soil->energy->shown);
+        job.update.restored = soil->energy->restored;
+        memset(soil->energy->restored, 0, (size_t)soil->set.n_particles * sizeof *soil->energy->restored);
     }
     for (int k = 0; k < soil->n_kinds; ++k) {
         const mor_soil_kind *kind = &soil->kinds[k];

@@ -112,7 +112,7 @@ static double largest_drift(const char *text)
     return drift;
 }
 
-/* Elastic soil without gravity that has lost compression: what the law is shown becomes elastic energy, and none of it
+/* Elastic soil without gravity that has lost compression: what is restored becomes elastic energy, and none of it
  * counts as plastic. */
 static const char lossy[] =
     "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0);"
@@ -123,7 +123,7 @@ static const char lossy[] =
     "probes = ( { type = 'elastic_energy'; }, { type = 'plastic_energy'; }, { type = 'numerical_dissipation'; },"
     "  { type = 'energy_balance'; } );";
 
-static void compression_that_laws_are_shown_is_energy_that_is_given(void **state)
+static void restored_compression_is_energy_that_is_given(void **state)
 {
     (void)state;
     scene *it = scene_new(&(scene_request){.text = lossy});
@@ -138,7 +138,7 @@ static void compression_that_laws_are_shown_is_energy_that_is_given(void **state
     for (int64_t i = 0; i < set->n_particles; ++i) {
         /* The part that is left after four steps. */
         scene_expect_near("lost compression", set->data[MOR_FIELD_SEPARATION][i],
-                          -MOR_SEPARATION_LOST - 0.1 * pow(1.0 - MOR_SEPARATION_SHOWN, 4.0), 1e-15); /* rounding */
+                          -MOR_SEPARATION_LOST - 0.1 * pow(1.0 - MOR_SEPARATION_RESTORED, 4.0), 1e-15); /* rounding */
     }
     /* A law of the step alone: rounding. What is given lacks what the pressure has already done. */
     scene_expect_near("plastic energy", scene_probe(it, "plastic_energy"), 0.0, 1e-12 * elastic);
@@ -194,7 +194,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(soil_that_has_fallen_is_as_dense_as_before),
         cmocka_unit_test(sand_that_flies_apart_separates_by_its_volume),
-        cmocka_unit_test(compression_that_laws_are_shown_is_energy_that_is_given),
+        cmocka_unit_test(restored_compression_is_energy_that_is_given),
         cmocka_unit_test(pressure_that_diffuses_is_lost_compression),
         cmocka_unit_test(soil_that_flows_over_a_floor_keeps_its_density),
     };

@@ -12,29 +12,29 @@
  *  Soil that has come apart, and soil that has lost compression. A law in rate form builds up stress from any state,
  *  however far its grains are from one another. By how much soil has opened without a stress to show for it is kept
  *  here, as the volumetric strain of separation, and closes again before the law sees compression. By how much soil has
- *  been compressed without such a stress is kept as the same strain, negative: what goes beyond a bound the law is
- *  shown. docs/theory/separation.md. */
+ *  been compressed without such a stress is kept as the same strain, negative: what goes beyond a bound is restored
+ *  to the law. docs/theory/separation.md. */
 
 /** MOR_SEPARATION_ZERO: stresses are zero up to this part of the stiffness rho_0 c_0^2, 1: far above the rounding of a
  *  return to the apex, far below any stress of interest. MOR_SEPARATION_ELASTIC: least rise of the mean stress of an
  *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more, and soil may be up to
  *  fifteen times softer than the speed of sound of its law tells. MOR_SEPARATION_SLACK: largest separation over the
- *  part of the density that is missing, 1. MOR_SEPARATION_LOST: lost compression up to which the law is shown nothing,
- *  1: sums over disordered neighbors scatter by some percent. MOR_SEPARATION_SHOWN: part of what goes beyond that is
- *  shown in a step, 1; a wave crosses a particle in a few. MOR_SEPARATION_UNKNOWN: value at the start, 1, until a
+ *  part of the density that is missing, 1. MOR_SEPARATION_LOST: lost compression up to which nothing is restored,
+ *  1: sums over disordered neighbors scatter by some percent. MOR_SEPARATION_RESTORED: part of what goes beyond that is
+ *  restored in a step, 1; a wave crosses a particle in a few. MOR_SEPARATION_UNKNOWN: value at the start, 1, until a
  *  density was found by summation, which tells how particles were placed, at walls above all; then losses count. */
 #define MOR_SEPARATION_ZERO 1.0e-13
 #define MOR_SEPARATION_ELASTIC 0.02
 #define MOR_SEPARATION_SLACK 10.0
 #define MOR_SEPARATION_LOST 0.1
-#define MOR_SEPARATION_SHOWN 0.05
+#define MOR_SEPARATION_RESTORED 0.05
 #define MOR_SEPARATION_UNKNOWN (-1.0e-300)
 
 /** What a law sees of the strain of a step. */
 typedef struct mor_separation_part {
     double share; /* of all of it, 0 to 1, 1 */
-    double taken; /* volumetric strain to be added to that share, 1: what closes without stress, >= 0; minus what it is
-                   * shown of lost compression, <= 0 */
+    double taken; /* volumetric strain to be added to that share, 1: what closes without stress, >= 0; minus what is
+                   * restored of lost compression, <= 0 */
     double left;  /* strain of separation after the step, as far as nothing opens, 1 */
 } mor_separation_part;
 
@@ -103,13 +103,12 @@ static inline double mor_separation_bound(double separation, double ratio)
     return mor_min(separation, MOR_SEPARATION_SLACK * mor_max(1.0 - ratio, 0.0));
 }
 
-/** Finds what the law sees of a step of soil that has lost compression: all of it, and of what is lost beyond a bound a
- *  part (A7).
+/** Restores lost compression to the law: it sees all of the step, and of what is lost beyond a bound a part (A7).
  *  @param separation [in]  strain of separation before the step, <= 0, 1 */
-static inline mor_separation_part mor_separation_show(double separation)
+static inline mor_separation_part mor_separation_restore(double separation)
 {
-    const double shown = MOR_SEPARATION_SHOWN * mor_max(-separation - MOR_SEPARATION_LOST, 0.0);
-    return (mor_separation_part){.share = 1.0, .taken = -shown, .left = separation + shown};
+    const double restored = MOR_SEPARATION_RESTORED * mor_max(-separation - MOR_SEPARATION_LOST, 0.0);
+    return (mor_separation_part){.share = 1.0, .taken = -restored, .left = separation + restored};
 }
 
 /** Returns the strain of separation, <= 0, 1, of soil after stress came or went that no strain goes with (A5).

@@ -47,7 +47,7 @@ static mor_separation_part find_part(const mor_stress_update *it, int64_t i)
     }
     return it->separation[i] > 0.0
                ? mor_separation_find(it->separation[i], find_strain(it, i), it->stress + 6 * i, find_stiffness(it, i))
-               : mor_separation_show(it->separation[i]);
+               : mor_separation_restore(it->separation[i]);
 }
 
 static void apply_part(const mor_stress_update *it, int64_t i, mor_separation_part part, double *velocity_gradient,
@@ -76,8 +76,8 @@ static void find_seen(const mor_stress_update *it, int64_t first, int64_t n, see
     for (int64_t i = 0; i < n && s->is_less; ++i) {
         const mor_separation_part part = find_part(it, first + i);
         s->separation[i] = part.left;
-        if (it->shown != NULL) {
-            it->shown[first + i] = mor_min(part.taken, 0.0);
+        if (it->restored != NULL) {
+            it->restored[first + i] = mor_min(part.taken, 0.0);
         }
         apply_part(it, first + i, part, s->velocity_gradient + 9 * i, s->diffusion + 6 * i);
     }

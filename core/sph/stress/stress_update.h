@@ -31,7 +31,7 @@ typedef struct mor_stress_update {
     const double *diffusion;                 /* shape [n, 6]; rate of stress beside the law's, Pa/s; NULL: none */
     double *stress;                          /* shape [n, 6]; Pa */
     double *separation;                      /* shape [n]; volumetric strain of separation, 1; NULL: none is kept */
-    double *shown;                           /* shape [n]; written where soil has lost compression: volumetric strain
+    double *restored;                        /* shape [n]; written where soil has lost compression: volumetric strain
                                               * that the law sees beside that of the motion, <= 0, 1; NULL: not asked */
     bool counts_lost;                        /* compression that is lost by diffusion counts; needs summed densities */
     double *state[MOR_MATERIAL_STATES_MAX];  /* shape [n_state][n, width]; units of the law's schema */

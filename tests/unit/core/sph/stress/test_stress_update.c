@@ -223,13 +223,13 @@ static void pressure_and_lost_compression_add_up_to_the_compression(void **state
     (void)state;
     enum { PRESSED = 200, WAIT = 400 };
     double diffusion[6 * N] = {0.0};
-    double shown[N] = {0.0};
+    double restored[N] = {0.0};
     double sum = 0.0;
     sample s;
     open_sample(&s, 0.5, 0.0, true);
     s.update.diffusion = diffusion;
     s.update.counts_lost = true;
-    s.update.shown = shown;
+    s.update.restored = restored;
     strain(&s, 2, -0.01, 0.0);
     for (int k = 1; k <= PRESSED + WAIT; ++k) {
         const bool is_pressed = k <= PRESSED;
@@ -237,15 +237,15 @@ static void pressure_and_lost_compression_add_up_to_the_compression(void **state
             diffusion[12 + a] = is_pressed ? BULK * 1e-3 / s.update.length : 0.0;
         }
         strain(&s, 2, is_pressed ? -1e-3 : 0.0, 0.0);
-        sum += shown[2];
+        sum += restored[2];
         const double all = 0.01 + 1e-3 * fmin(k, PRESSED);
         assert_true(fabs(pressure_of(&s, 2) / BULK - s.separation[2] - all) < 1e-12); /* rounding of 600 sums */
     }
     /* A part of what goes beyond the bound comes back in each step. */
-    const double left = 0.1 * pow(1.0 - MOR_SEPARATION_SHOWN, WAIT);
+    const double left = 0.1 * pow(1.0 - MOR_SEPARATION_RESTORED, WAIT);
     assert_true(s.separation[2] <= -MOR_SEPARATION_LOST && s.separation[2] > -MOR_SEPARATION_LOST - left - 1e-12);
     assert_true(fabs(sum + 0.2 + s.separation[2]) < 1e-12);
-    assert_true(pressure_of(&s, 1) == 0.0 && s.separation[1] == 0.0 && shown[1] == 0.0);
+    assert_true(pressure_of(&s, 1) == 0.0 && s.separation[1] == 0.0 && restored[1] == 0.0);
     law_point_close(&s.law);
 }
 
