@@ -5,12 +5,49 @@
 
 #include "core/base/math.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 /** @file
  *  Principal values and directions of a symmetric 3 x 3 tensor by cyclic Jacobi rotations: slower than a closed form
  *  but accurate for equal and nearly equal values, which soil at rest has everywhere. */
 
 /* A rotation by less than this changes no number: half of the sweeps would only make it smaller still. */
 #define MOR_EIGEN_NOTHING 1e-18
+
+/* Rotates in the plane of two axes so that the component between them vanishes. Constant axes and no loop over numbers
+ * in memory: both are for speed.
+ *  Returns: whether there was anything to rotate. */
+static inline bool mor_eigen_rotate(double *restrict m, double *restrict directions, int p, int q)
+{
+    const double off = m[3 * p + q];
+    if (fabs(off) <= MOR_EIGEN_NOTHING * (fabs(m[4 * p]) + fabs(m[4 * q]))) {
+        m[3 * p + q] = m[3 * q + p] = 0.0;
+        return false;
+    }
+    const double ratio = (m[4 * q] - m[4 * p]) / (2.0 * off);
+    const double t = (ratio >= 0.0 ? 1.0 : -1.0) / (fabs(ratio) + sqrt(ratio * ratio + 1.0));
+    const double c = 1.0 / sqrt(t * t + 1.0);
+    const double s = t * c;
+    for (int k = 0; k < 3; ++k) {
+        const double a = m[3 * k + p];
+        const double b = m[3 * k + q];
+        m[3 * k + p] = c * a - s * b;
+        m[3 * k + q] = s * a + c * b;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double a = m[3 * p + k];
+        const double b = m[3 * q + k];
+        m[3 * p + k] = c * a - s * b;
+        m[3 * q + k] = s * a + c * b;
+        const double u = directions[3 * k + p];
+        const double v = directions[3 * k + q];
+        directions[3 * k + p] = c * u - s * v;
+        directions[3 * k + q] = s * u + c * v;
+    }
+    m[3 * p + q] = m[3 * q + p] = 0.0;
+    return true;
+}
 
 /** Diagonalizes a symmetric tensor, shape [6].
  *  @param tensor     [in]   shape [6], (xx, yy, zz, xy, yz, zx); any unit
@@ -24,37 +61,11 @@ static inline void mor_symmetric_eigen(const double *tensor, double *values, dou
     for (int k = 0; k < 9; ++k) {
         directions[k] = k % 4 == 0 ? 1.0 : 0.0;
     }
-    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
-        for (int pair = 0; pair < 3; ++pair) {
-            const int p = pair == 2 ? 1 : 0;
-            const int q = pair == 0 ? 1 : 2;
-            const double off = m[3 * p + q];
-            if (fabs(off) <= MOR_EIGEN_NOTHING * (fabs(m[4 * p]) + fabs(m[4 * q]))) {
-                m[3 * p + q] = m[3 * q + p] = 0.0;
-                continue;
-            }
-            const double ratio = (m[4 * q] - m[4 * p]) / (2.0 * off);
-            const double t = (ratio >= 0.0 ? 1.0 : -1.0) / (fabs(ratio) + sqrt(ratio * ratio + 1.0));
-            const double c = 1.0 / sqrt(t * t + 1.0);
-            const double s = t * c;
-            for (int k = 0; k < 3; ++k) {
-                const double a = m[3 * k + p];
-                const double b = m[3 * k + q];
-                m[3 * k + p] = c * a - s * b;
-                m[3 * k + q] = s * a + c * b;
-            }
-            for (int k = 0; k < 3; ++k) {
-                const double a = m[3 * p + k];
-                const double b = m[3 * q + k];
-                m[3 * p + k] = c * a - s * b;
-                m[3 * q + k] = s * a + c * b;
-                const double u = directions[3 * k + p];
-                const double v = directions[3 * k + q];
-                directions[3 * k + p] = c * u - s * v;
-                directions[3 * k + q] = s * u + c * v;
-            }
-            m[3 * p + q] = m[3 * q + p] = 0.0;
-        }
+    bool has_more = true;
+    for (int sweep = 0; has_more && sweep < SWEEPS; ++sweep) {
+        has_more = mor_eigen_rotate(m, directions, 0, 1);
+        has_more |= mor_eigen_rotate(m, directions, 0, 2);
+        has_more |= mor_eigen_rotate(m, directions, 1, 2);
     }
     for (int k = 0; k < 3; ++k) {
         values[k] = m[4 * k];
