@@ -110,7 +110,8 @@ static mor_status advance_point(const void *constants, mor_rate_point *p)
         set_free(m, p, start, volume);
         return MOR_OK;
     }
-    const mor_symmetric trial = mor_symmetric_add(mor_log_strain_advance(start, p->gradient), volume,
+    const mor_symmetric exact = mor_log_strain_advance(start, p->gradient);
+    const mor_symmetric trial = mor_symmetric_add(mor_log_strain_flow(start, p->gradient, exact), volume,
                                                   mor_log_strain_of_stress(&m->elastic, p->extra));
     const double opening = mor_invariant_i1(trial);
     const double pressure = -m->elastic.bulk * opening;

@@ -15,10 +15,13 @@
 /* A rotation by less than this changes no number: half of the sweeps would only make it smaller still. */
 #define MOR_EIGEN_NOTHING 1e-18
 
-/* Rotates in the plane of two axes so that the component between them vanishes. Constant axes and no loop over numbers
- * in memory: both are for speed.
+/** Rotates in the plane of two axes so that the component between them vanishes. Constant axes make it fast.
+ *  @param m          [in,out]  shape [3,3], symmetric; any unit
+ *  @param directions [in,out]  shape [3,3], 1
+ *  @param p          [in]      first axis
+ *  @param q          [in]      second axis
  *  Returns: whether there was anything to rotate. */
-static inline bool mor_eigen_rotate(double *restrict m, double *restrict directions, int p, int q)
+static inline bool mor_eigen_rotate(double *m, double *directions, int p, int q)
 {
     const double off = m[3 * p + q];
     if (fabs(off) <= MOR_EIGEN_NOTHING * (fabs(m[4 * p]) + fabs(m[4 * q]))) {

@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/process_lock.h"
+#include "materials/interfaces/step_motion.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -126,6 +127,7 @@ static mor_status set_state(mor_context *context, mor_interface_law *it, const m
 /* What an instance has worked out. */
 typedef struct constants {
     double wave_speed; /* m/s */
+    double stiffness;  /* density times its square, Pa */
     double length;     /* m */
     bool is_reentrant;
 } constants;
@@ -133,93 +135,6 @@ typedef struct constants {
 static const mor_interface_law *law_of(const mor_material_instance *instance)
 {
     return (const mor_interface_law *)(const void *)instance->material;
-}
-
-/* Rotation minus identity, 2/(1 + w.w) ([w] + [w][w]), w half the axial vector of the spin of the step. */
-static void find_turn(const double *l, double *turn)
-{
-    const double w[3] = {0.25 * (l[7] - l[5]), 0.25 * (l[2] - l[6]), 0.25 * (l[3] - l[1])};
-    const double f = 2.0 / (1.0 + (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        const int c = (a + 2) % 3;
-        turn[4 * a] = -f * (w[b] * w[b] + w[c] * w[c]);
-        turn[3 * a + b] = f * (w[a] * w[b] - w[c]);
-        turn[3 * b + a] = f * (w[a] * w[b] + w[c]);
-    }
-}
-
-/* A symmetric tensor, turned: t + E t + (E t)^T + E t E^T. */
-static void turn_tensor(const double *turn, const double *t, double *turned)
-{
-    static const int PLACE[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
-    double product[9];
-    for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) {
-            product[3 * a + b] =
-                turn[3 * a] * t[PLACE[b]] + turn[3 * a + 1] * t[PLACE[3 + b]] + turn[3 * a + 2] * t[PLACE[6 + b]];
-        }
-    }
-    for (int m = 0; m < 6; ++m) {
-        const int a = m % 3;
-        const int b = m < 3 ? a : (a + 1) % 3;
-        const double twice =
-            product[3 * a] * turn[3 * b] + product[3 * a + 1] * turn[3 * b + 1] + product[3 * a + 2] * turn[3 * b + 2];
-        turned[m] = t[m] + ((product[3 * a + b] + product[3 * b + a]) + twice);
-    }
-}
-
-/* A symmetric tensor 11, 22, 33, sqrt 2 12, sqrt 2 13, sqrt 2 23, turned. */
-static void turn_mandel(const double *turn, const double *t, double *turned)
-{
-    const double root = sqrt(0.5);
-    const double plain[6] = {t[0], t[1], t[2], root * t[3], root * t[5], root * t[4]};
-    double result[6];
-    turn_tensor(turn, plain, result);
-    for (int k = 0; k < 6; ++k) {
-        const int place = k < 4 ? k : 9 - k;
-        /* Without a rotation exactly what it was. */
-        turned[k] = t[k] + (k < 3 ? 1.0 : 1.0 / root) * (result[place] - plain[place]);
-    }
-}
-
-/* a b for matrices. */
-static void multiply(const double *a, const double *b, double *product)
-{
-    for (int k = 0; k < 9; ++k) {
-        const int row = 3 * (k / 3);
-        const int column = k % 3;
-        product[k] = a[row] * b[column] + a[row + 1] * b[3 + column] + a[row + 2] * b[6 + column];
-    }
-}
-
-/* F at the end: (I - l/2)^-1 (I + l/2) F, which belongs to the velocity gradient in the middle of the step. */
-static void advance_deformation(const double *l, const double *from, double *to)
-{
-    double minus[9];
-    double plus[9];
-    double inverse[9];
-    double step[9];
-    for (int k = 0; k < 9; ++k) {
-        minus[k] = (k % 4 == 0 ? 1.0 : 0.0) - 0.5 * l[k];
-        plus[k] = (k % 4 == 0 ? 1.0 : 0.0) + 0.5 * l[k];
-    }
-    double determinant = 0.0;
-    for (int k = 0; k < 9; ++k) {
-        const int a = (k % 3 + 1) % 3; /* of the transposed place */
-        const int b = (k % 3 + 2) % 3;
-        const int c = (k / 3 + 1) % 3;
-        const int d = (k / 3 + 2) % 3;
-        inverse[k] = minus[3 * a + c] * minus[3 * b + d] - minus[3 * a + d] * minus[3 * b + c];
-    }
-    for (int a = 0; a < 3; ++a) {
-        determinant += minus[a] * inverse[3 * a];
-    }
-    multiply(inverse, plus, step);
-    multiply(step, from, to);
-    for (int k = 0; k < 9; ++k) {
-        to[k] /= determinant;
-    }
 }
 
 /* Beyond it an increment is no longer small; as of the built-in laws. */
@@ -253,14 +168,14 @@ static void load_state(const mor_interface_law *law, const mor_batch *batch, int
         const int n = law->state[k].n_components;
         const double *from = batch->state_in[k] + n * i;
         if (n == 6 && law->kind->turns_tensors) {
-            turn_mandel(turn, from, to);
+            mor_step_motion_turn_mandel(turn, from, to);
         } else {
             memcpy(to, from, (size_t)n * sizeof *to);
         }
         to += n;
     }
     p->time = batch->state_in[law->n_states + KEPT_TIME][i];
-    turn_tensor(turn, batch->state_in[law->n_states + KEPT_STRAIN] + 6 * i, p->strain);
+    mor_step_motion_turn_tensor(turn, batch->state_in[law->n_states + KEPT_STRAIN] + 6 * i, p->strain);
     memcpy(p->deformation[0], batch->state_in[law->n_states + KEPT_DEFORMATION] + 9 * i, sizeof p->deformation[0]);
 }
 
@@ -279,7 +194,8 @@ static void store_state(const mor_interface_law *law, const mor_batch *batch, in
     memcpy(batch->state_out[law->n_states + KEPT_DEFORMATION] + 9 * i, p->deformation[1], sizeof p->deformation[1]);
 }
 
-static mor_status load_point(const mor_interface_law *law, const mor_batch *batch, int64_t i, mor_external_point *p)
+static mor_status load_point(const mor_interface_law *law, const constants *c, const mor_batch *batch, int64_t i,
+                             mor_external_point *p)
 {
     double l[9];
     double turn[9];
@@ -294,24 +210,25 @@ static mor_status load_point(const mor_interface_law *law, const mor_batch *batc
     }
     p->time_step = batch->time_step;
     p->density = batch->density[i];
-    find_turn(l, turn);
+    mor_step_motion_find_turn(l, turn);
     for (int k = 0; k < 9; ++k) {
         p->rotation[k] = turn[k] + (k % 4 == 0 ? 1.0 : 0.0);
     }
     const double strain[6] = {l[0], l[4], l[8], 0.5 * (l[1] + l[3]), 0.5 * (l[5] + l[7]), 0.5 * (l[6] + l[2])};
-    turn_tensor(turn, strain, turned);
+    mor_step_motion_turn_tensor(turn, strain, turned);
+    const double before = 0.5 * mor_step_motion_find_turning_part(c->stiffness, batch->stress_in + 6 * i, strain);
     for (int m = 0; m < 6; ++m) {
         const double extra =
             batch->extra_stress_rate != NULL ? 0.5 * batch->extra_stress_rate[6 * i + m] * batch->time_step : 0.0;
-        p->strain_increment[m] = 0.5 * (strain[m] + turned[m]);
+        p->strain_increment[m] = (1.0 - before) * strain[m] + before * turned[m];
         start[m] = batch->stress_in[6 * i + m] + extra;
     }
-    turn_tensor(turn, start, p->stress);
+    mor_step_motion_turn_tensor(turn, start, p->stress);
     for (int m = 0; m < 6 && batch->extra_stress_rate != NULL; ++m) {
         p->stress[m] += 0.5 * batch->extra_stress_rate[6 * i + m] * batch->time_step;
     }
     load_state(law, batch, i, p, turn);
-    advance_deformation(l, p->deformation[0], p->deformation[1]);
+    mor_step_motion_advance_deformation(l, p->deformation[0], p->deformation[1]);
     return is_finite(p->stress, 6) && is_finite(p->state, law->n_state_values) && is_finite(p->deformation[1], 9) &&
                    is_finite(p->strain, 6)
                ? MOR_OK
@@ -323,7 +240,7 @@ static mor_status advance_point(const mor_interface_law *law, const constants *c
     mor_external_point p;
     p.is_first = false;
     p.length = c->length;
-    mor_status status = load_point(law, batch, i, &p);
+    mor_status status = load_point(law, c, batch, i, &p);
     if (status == MOR_OK) {
         status = law->kind->update(law, &p);
     }
@@ -441,10 +358,12 @@ static mor_status external_create(const mor_services *services, mor_material_ins
     c->length = instance->parameters[MOR_EXTERNAL_LENGTH];
     c->wave_speed = instance->parameters[MOR_EXTERNAL_WAVE_SPEED];
     const mor_status status = try_law(services, law, c, instance->density, &wave_speed);
-    if (status != MOR_OK || c->wave_speed > 0.0) {
+    const bool is_given = c->wave_speed > 0.0;
+    c->wave_speed = is_given ? c->wave_speed : wave_speed;
+    c->stiffness = instance->density * c->wave_speed * c->wave_speed;
+    if (status != MOR_OK || is_given) {
         return status;
     }
-    c->wave_speed = wave_speed;
     if (!(wave_speed > 0.0) || !isfinite(wave_speed)) {
         return MOR_SERVICES_FAIL(services, MOR_ERROR_ARGUMENT,
                                  "%s '%s' tells no stiffness for no strain at no stress, from which the speed of sound "
