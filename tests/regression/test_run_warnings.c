@@ -98,6 +98,39 @@ static void soil_that_crowds_is_warned_of_at_the_end(void **state)
     }
 }
 
+/* A round rock of four spacings' radius in sand, where the lattice does not fit it; ' stands for ". */
+static const char rock_in_sand[] =
+    "title = 'rock in sand'; dimension = 2; spacing = '0.05 m'; end = '1 ms'; gravity = ('0 m/s2', '-9.81 m/s2');"
+    "domain = { min = ('-1 m', '-1 m'); max = ('3 m', '4 m'); };"
+    "soil = ( { name = 'sand'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('1 m', '1 m'); };"
+    "  material = { model = 'drucker_prager'; density = '2000 kg/m3'; youngs_modulus = '10 MPa';"
+    "    poissons_ratio = 0.3; friction_angle = '30 deg'; }; } );"
+    "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; } );"
+    "bodies = ( { name = 'rock'; position = ('0.52 m', '0.47 m'); particles = 'relaxed';"
+    "  shape = { type = 'sphere'; center = ('0 m', '0 m'); radius = '0.2 m'; };"
+    "  material = { model = 'rigid'; density = '2400 kg/m3'; }; } );"
+    "probes = ( { type = 'height'; } ); output = { pictures = false; snapshots = 1; };";
+
+/* Beside the rock the particles of the lattice lie at anything from nothing to a spacing from its surface; relaxed ones
+ * have 1.03 of the density at most. */
+static void soil_that_lies_unevenly_is_warned_of_at_the_start(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    static const char *const particles[] = {"soil[0].particles=\"lattice\"", "soil[0].particles=\"relaxed\""};
+    finished_run_store_text(folder, rock_in_sand, path);
+    for (int k = 0; k < 2; ++k) {
+        const char *const arguments[] = {"run", path,         "-t", "1", "-o", k == 0 ? "uneven" : "even",
+                                         "-s",  particles[k], NULL};
+        program_outcome outcome = program_run(folder, arguments, 0);
+        char *text = load_summary(folder, k == 0 ? "uneven" : "even");
+        assert_int_equal(count(text, "at the start the density of a hundredth of the soil is off by"), 1 - k);
+        assert_int_equal(count(text, "set particles = \\\"relaxed\\\" of soil 'sand'"), 1 - k);
+        free(text);
+        program_clear(&outcome);
+    }
+}
+
 /* Steps are some 0.1 ms long. */
 static void window_without_a_measurement_is_warned_of(void **state)
 {
@@ -172,6 +205,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(warnings_stand_in_the_summary_also_after_a_resume, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_that_crowds_is_warned_of_at_the_end, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soil_that_lies_unevenly_is_warned_of_at_the_start, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(window_without_a_measurement_is_warned_of, run_folder_setup,
                                         run_folder_teardown),

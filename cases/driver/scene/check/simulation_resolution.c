@@ -187,8 +187,11 @@ static void advise_mass(const mor_case *c, const mor_bounds *bounds, double erro
     const double of_side = n * c->spacing / side - 1.0;
     if (fabs(of_side) <= side_allowed || of_side * error < 0.0 || fabs(of_side) < 0.5 * fabs(error)) {
         /* The sides fit, or do not explain it, so it is due to slopes and curves. */
-        snprintf(text, n_bytes, "its slanted or curved faces%s are coarse: a spacing of %.2g m or less fits",
-                 c->n_bodies > 0 ? ", or those of bodies in it," : "", c->spacing * mass_allowed / fabs(error));
+        snprintf(
+            text, n_bytes,
+            "its slanted or curved faces%s are coarse: a spacing of %.2g m or less fits, and particles = \"relaxed\" "
+            "at any spacing",
+            c->n_bodies > 0 ? ", or those of bodies in it," : "", c->spacing * mass_allowed / fabs(error));
         return;
     }
     size_t used =
