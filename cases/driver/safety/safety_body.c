@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/safety/safety_body.h"
 
+#include "cases/driver/safety/safety_parts.h"
 #include "cases/driver/scene/soil_columns.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
@@ -9,13 +10,23 @@
 /* Half of what moves most: inside a body that slides as a whole displacements hardly differ, outside they vanish. */
 static const double usual_share = 0.5;
 
-static void find_parts(const mor_simulation *simulation, const mor_safety_reference *reference, mor_safety_body *body)
+/* Particles nearer than this at the start are connected, spacings: across a diagonal, and where they are relaxed. What
+ * is smaller than this share of the largest connected part is none: grains that rolled, chips of the surface. */
+static const double connected = 1.5;
+static const double small_share = 0.1;
+
+static mor_status find_parts(mor_context *context, const mor_simulation *simulation,
+                             const mor_safety_reference *reference, mor_safety_body *body)
 {
     const mor_set *set = &simulation->soil.set;
     double rest = 0.0; /* compensated sum, in the order of the numbers */
     for (int64_t i = 0; i < set->n_particles; ++i) {
         body->is_part[set->id[i]] = mor_safety_displacement(reference, set, i) > body->limit;
         reference->values[set->id[i]] = set->data[MOR_FIELD_MASS][i] / set->data[MOR_FIELD_DENSITY][i];
+    }
+    if (!simulation->soil.period.is_any) { /* a part may go on beyond a face */
+        MOR_TRY(context, mor_safety_parts_keep(context, reference->position, reference->n,
+                                               connected * simulation->the_case->spacing, small_share, body->is_part));
     }
     for (int64_t id = 0; id < reference->n; ++id) {
         const double term = (body->is_part[id] ? reference->values[id] : 0.0) - rest;
@@ -24,6 +35,7 @@ static void find_parts(const mor_simulation *simulation, const mor_safety_refere
         body->volume = sum;
         body->n += body->is_part[id];
     }
+    return MOR_OK;
 }
 
 /* The longest row of neighboring columns whose highest particle is part of the body; places sorted by column. */
@@ -91,9 +103,11 @@ mor_status mor_safety_body_find(mor_context *context, const mor_simulation *simu
     *body =
         (mor_safety_body){.share = usual_share, .limit = usual_share * largest, .top = {NAN, NAN}, .toe = {NAN, NAN}};
     MOR_TRY(context, MOR_NEW(context, &body->is_part, reference->n, "the critical body"));
-    find_parts(simulation, reference, body);
     const bool may_end = simulation->the_case->dimension == 2 && !simulation->soil.period.is_any;
-    const mor_status status = may_end ? find_ends(context, simulation, reference, body) : MOR_OK;
+    mor_status status = find_parts(context, simulation, reference, body);
+    if (status == MOR_OK && may_end) {
+        status = find_ends(context, simulation, reference, body);
+    }
     if (status != MOR_OK) {
         mor_safety_body_clear(context, body);
     }
