@@ -18,7 +18,8 @@ static const double bar_room = 190.0;       /* px, right of the plot: color bar 
 static const double right_margin = 40.0;    /* px, of the color bar's numbers */
 static const double highest_percent = 0.99; /* of the particles lie within the colors */
 static const double overlap = 1.04;         /* of neighboring squares, which would show a hairline between them */
-static const double rock_overlap = 1.3;     /* likewise of rocks, whose particles stand on no lattice */
+static const double loose_overlap = 1.4;    /* likewise of particles that stand on no lattice */
+static const double cell_reach = 0.75;      /* of a particle to centers of cells, spacings: no cell between is empty */
 static const double rock_color[3] = {0.62, 0.62, 0.60};
 static const double outline_color[3] = {0.85, 0.05, 0.10};
 
@@ -136,13 +137,17 @@ static void find_color(const sheet *s, double fraction, double *color)
 static void draw_soil(const sheet *s)
 {
     const mor_set *set = &s->it->mechanism->soil.set;
-    const double spacing = s->it->setup.reduced->original->spacing;
+    const mor_case *c = s->it->setup.reduced->original;
+    double side = overlap * c->spacing;
+    for (int k = 0; k < c->n_soils; ++k) {
+        side = c->soils[k].is_relaxed ? loose_overlap * c->spacing : side;
+    }
     for (int64_t id = 0; id < set->n_created; ++id) {
         double x[2];
         double color[3];
         place_of(s, id, x);
         find_color(s, s->values[id] / s->top, color);
-        draw_square(s, x, overlap * spacing, color);
+        draw_square(s, x, side, color);
     }
 }
 
@@ -156,14 +161,14 @@ static void draw_rocks(const sheet *s)
         for (int64_t i = 0; i < sets[k]->n_particles; ++i) {
             double place[3];
             mor_simulation_take_point_back(c, sets[k]->data[MOR_FIELD_POSITION] + 3 * i, place);
-            draw_square(s, place, rock_overlap * c->spacing, rock_color);
+            draw_square(s, place, loose_overlap * c->spacing, rock_color);
         }
     }
 }
 
 /* ---- The outline ------------------------------------------------------------------------------------------------- */
 
-/* Cells of the lattice that hold a particle of the body. */
+/* Cells of the lattice that hold a particle of the body, or are reached by one. */
 typedef struct cells {
     bool *is_part; /* shape [n[1], n[0]]; owned */
     int64_t n[2];
@@ -174,6 +179,25 @@ static bool is_part(const cells *grid, int64_t column, int64_t row)
 {
     return column >= 0 && column < grid->n[0] && row >= 0 && row < grid->n[1] &&
            grid->is_part[row * grid->n[0] + column];
+}
+
+/* The cells about a particle whose centers it reaches: on a lattice its own. */
+static void mark(cells *grid, const double *x)
+{
+    const int64_t own[2] = {(int64_t)floor((x[0] - grid->low[0]) / grid->spacing),
+                            (int64_t)floor((x[1] - grid->low[1]) / grid->spacing)};
+    for (int k = 0; k < 9; ++k) {
+        const int64_t cell[2] = {own[0] + k % 3 - 1, own[1] + k / 3 - 1};
+        double distance2 = 0.0;
+        for (int a = 0; a < 2; ++a) {
+            const double d = (x[a] - grid->low[a]) / grid->spacing - ((double)cell[a] + 0.5);
+            distance2 += d * d;
+        }
+        if (distance2 < cell_reach * cell_reach && cell[0] >= 0 && cell[0] < grid->n[0] && cell[1] >= 0 &&
+            cell[1] < grid->n[1]) {
+            grid->is_part[cell[1] * grid->n[0] + cell[0]] = true;
+        }
+    }
 }
 
 static mor_status fill_cells(mor_context *context, const sheet *s, cells *grid)
@@ -192,9 +216,7 @@ static mor_status fill_cells(mor_context *context, const sheet *s, cells *grid)
         double x[2];
         if (s->it->body.is_part[set->id[i]]) {
             place_of(s, set->id[i], x);
-            const int64_t column = (int64_t)floor((x[0] - grid->low[0]) / grid->spacing);
-            const int64_t row = (int64_t)floor((x[1] - grid->low[1]) / grid->spacing);
-            grid->is_part[row * grid->n[0] + column] = true;
+            mark(grid, x);
         }
     }
     return MOR_OK;
