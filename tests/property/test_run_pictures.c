@@ -180,6 +180,24 @@ static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
     mor_set_clear(&folder->context, &rocks);
 }
 
+/* A depth of 0.1 m beside a run-out of 30 m would lie on the axis; 3 m is a tenth, and does not. */
+static void quantities_of_unlike_size_have_charts_of_their_own(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    FILE *file = fopen(run_folder_file(folder, path, "series.csv"), "w");
+    assert_non_null(file);
+    fprintf(file, "time [s],step [1],step_length [s],rate_ratio [1],run_out [m],height [m],depth [m],gap [m]\n"
+                  "0,0,1,1,0,3,0,nan\n1,1,1,1,30,2,-0.1,0.02\n");
+    assert_int_equal(fclose(file), 0);
+    make_part(folder, "images");
+    assert_int_equal(mor_charts_render(&folder->context, folder->path, stdout), MOR_OK);
+    assert_int_equal(access(run_folder_file(folder, path, "images/chart_run_out.png"), R_OK), 0);
+    assert_int_equal(access(run_folder_file(folder, path, "images/chart_depth.png"), R_OK), 0);
+    assert_int_not_equal(access(run_folder_file(folder, path, "images/chart_height.png"), R_OK), 0);
+    assert_int_not_equal(access(run_folder_file(folder, path, "images/chart_gap.png"), R_OK), 0);
+}
+
 /* Two probes of one quantity, each with a window of its own: neither hides the other. */
 static void curves_of_probes_are_drawn_over_each_other_in_their_windows_alone(void **state)
 {
@@ -218,8 +236,14 @@ static void curves_of_probes_are_drawn_over_each_other_in_their_windows_alone(vo
         {.name = "early", .x = times, .y = depths, .n_points = 2, .style = MOR_CHART_LINE, .color_of = 1},
         {.name = "late", .x = times + 2, .y = depths + 2, .n_points = 2, .style = MOR_CHART_LINE, .color_of = 2}};
     const char *const notes[] = {"Pale: outside of a probe's window."};
-    const mor_chart wanted = {
-        .x_name = "time", .x_unit = "s", .y_unit = "m", .series = series, .n_series = 4, .notes = notes, .n_notes = 1};
+    const mor_chart wanted = {.title = "early, late",
+                              .x_name = "time",
+                              .x_unit = "s",
+                              .y_unit = "m",
+                              .series = series,
+                              .n_series = 4,
+                              .notes = notes,
+                              .n_notes = 1};
     assert_int_equal(mor_picture_chart(&folder->context, &wanted, run_folder_file(folder, path, "wanted.png")), MOR_OK);
     uint8_t *expected = run_folder_load(path, &n_bytes[1]);
     assert_int_equal(n_bytes[0], n_bytes[1]);
@@ -297,6 +321,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(how_far_a_floor_reaches_does_not_matter, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(curves_of_probes_are_drawn_over_each_other_in_their_windows_alone,
                                         run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(quantities_of_unlike_size_have_charts_of_their_own, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(charts_hold_as_many_curves_as_colors_tell_apart, run_folder_setup,
                                         run_folder_teardown),
     };

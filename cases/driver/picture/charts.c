@@ -16,6 +16,12 @@
 /* Columns of the series before the first probe: time, step, step length, rate ratio. */
 enum { FIRST_PROBE = 4, COLUMNS_MAX = 256, NAME_BYTES = 96, TEXT_BYTES = 416, CURVES_MAX = MOR_COLORMAP_CATEGORIES };
 
+/* Of a title that names several curves. */
+enum { TITLE_LETTERS = 60 };
+
+/* Largest ratio of the sizes of two quantities on one axis: a twentieth of it still shows its course. */
+#define SIZES_MOST 20.0
+
 /* One column's heading, parsed: "name [unit]". */
 typedef struct heading {
     char name[NAME_BYTES];
@@ -230,12 +236,31 @@ static void add_marks(const sheet *s, plate *p)
     }
 }
 
-/* The columns not yet drawn that have the unit of a first one, as many as colors distinguish. */
+/* The largest number of a column in size; 0 where there is none. */
+static double find_size(const mor_table_data *data, int column)
+{
+    double size = 0.0;
+    for (int64_t row = 0; row < data->n_rows; ++row) {
+        const double value = fabs(data->values[row * data->n_columns + column]);
+        size = value > size && isfinite(value) ? value : size;
+    }
+    return size;
+}
+
+/* Curves of one chart: a smaller one would be a line along the axis. One that is zero throughout fits any. */
+static bool are_alike(double a, double b)
+{
+    return a == 0.0 || b == 0.0 || (a <= SIZES_MOST * b && b <= SIZES_MOST * a);
+}
+
+/* The columns not yet drawn that have the unit of a first one and its size, as many as colors distinguish. */
 static void add_curves(sheet *s, int first, plate *p)
 {
     const mor_table_data *data = s->data;
+    const double size = find_size(data, first);
     for (int column = first; column < data->n_columns && p->n_curves < CURVES_MAX; ++column) {
-        if (!s->is_drawn[column] && strcmp(s->headings[column].unit, s->headings[first].unit) == 0) {
+        if (!s->is_drawn[column] && strcmp(s->headings[column].unit, s->headings[first].unit) == 0 &&
+            are_alike(size, find_size(data, column))) {
             double *x = s->room + 2 * (int64_t)p->n_curves * data->n_rows;
             double *y = x + data->n_rows;
             const int64_t n_points = copy_column(data, column, x, y);
@@ -250,9 +275,24 @@ static void add_curves(sheet *s, int first, plate *p)
     p->n_series = p->n_curves;
 }
 
+/* The names of all curves, or of as many as have room, and the number of the others. */
+static void find_title(const plate *p, const sheet *s, char *title, size_t n_bytes)
+{
+    size_t used = 0;
+    for (int k = 0; k < p->n_curves; ++k) {
+        const char *name = s->headings[p->columns[k]].name;
+        if (k > 0 && used + strlen(name) + 2 > TITLE_LETTERS) {
+            snprintf(title + used, n_bytes - used, " and %d more", p->n_curves - k);
+            return;
+        }
+        used += (size_t)snprintf(title + used, n_bytes - used, "%s%s", k > 0 ? ", " : "", name);
+    }
+}
+
 static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *output)
 {
     char path[MOR_PATH_BYTES];
+    char title[TEXT_BYTES];
     plate p = {.n_curves = 0};
     add_curves(s, first, &p);
     if (p.n_curves == 0) {
@@ -261,8 +301,9 @@ static mor_status draw_unit(mor_context *context, sheet *s, int first, FILE *out
     const char *name = p.series[0].name;
     const bool is_single = p.n_curves == 1;
     p.series[0].name = is_single ? NULL : name; /* it is in the title */
+    find_title(&p, s, title, sizeof title);
     add_marks(s, &p);
-    const mor_chart chart = {.title = is_single ? name : NULL,
+    const mor_chart chart = {.title = title,
                              .x_name = "time",
                              .x_unit = "s",
                              .y_name = is_single ? name : NULL,
