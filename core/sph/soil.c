@@ -109,7 +109,7 @@ static const mor_stage soil_stages[] = {
     {"impulse on sleep", mor_soil_count_sleep, BIT(ACCELERATION) | BIT(MASS), 0, SHARED(LISTS),
      "impulse given to soil that sleeps, when switched on", mor_soil_may_sleep},
     {"boundary forces", mor_soil_sum_boundary_forces,
-     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE),
+     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(STRAIN_RATE),
      SHARED(WALL_FORCES), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
     {"kick", mor_soil_kick, SHARED(LISTS), 0,
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),

@@ -204,6 +204,8 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
                                    .of_soil = arrays.of_soil,
                                    .region = mor_soil_read_region(soil, view),
                                    .records = arrays.records,
+                                   .strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE),
+                                   .depth = 0.5 * soil->settings.spacing,
                                    .n_particles = arrays.n_particles};
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));

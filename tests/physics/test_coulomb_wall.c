@@ -137,6 +137,23 @@ static void strong_block_slides_by_the_law_on_a_floor_that_only_presses(void **s
     assert_true(sticky > 0.3 + 0.05);
 }
 
+/* Weak soil yields above the floor before it slips along it: a coefficient above what it mobilizes makes the floor a
+ * rough one. Friction against motion that is shear, and no slip, held the first row back as with 0.258 here. */
+static void coulomb_floor_stronger_than_the_soil_is_rough(void **state)
+{
+    static const char *const rough[] = {"walls[0].friction=rough", NULL};
+    static const char *const weak[] = {"soil[0].shape.max=(0.8, 0.1)", "soil[0].material.cohesion=0",
+                                       "soil[0].material.friction_angle='12 deg'", "domain.max=(1.6, 0.3, 1)", NULL};
+    static const double coefficients[] = {0.5, 1.0, 2.0};
+    (void)state;
+    const double wanted = find_coefficient(slide(schemes[0], weak, rough));
+    for (int k = 0; k < 3; ++k) {
+        const double found = find_coefficient(slide_with_friction(schemes[0], weak, coefficients[k]));
+        print_message("rough: as with %.4f; coefficient %.1f: as with %.4f\n", wanted, coefficients[k], found);
+        scene_expect_near("coefficient", found, wanted, 0.006); /* grains that have come off slide by the coefficient */
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -146,6 +163,7 @@ int main(void)
         cmocka_unit_test(block_slides_on_a_coulomb_floor_by_the_law),
         cmocka_unit_test(strong_block_slides_by_the_law_on_a_floor_that_only_presses),
         cmocka_unit_test(block_stays_on_a_coulomb_floor_that_carries_it),
+        cmocka_unit_test(coulomb_floor_stronger_than_the_soil_is_rough),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,6 +14,9 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Tractions below this part of the bulk modulus are rounding, and do not tell whether a particle slides. */
 #define NOISE 1.0e-9
 
+/* Motion along a boundary up to this many times what the soil's rate of shear explains is shear, 1. */
+#define SHEARS 20.0
+
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
 #define LARGEST_SHARE 0.6
 
@@ -140,7 +143,30 @@ typedef struct boundary_terms {
     const double *velocity;         /* of the boundary, m/s */
     const double *gradient;         /* sum V grad_i W, 1/m */
     const double *repulsion;        /* acceleration by the barrier, m/s2; NULL without */
+    const double *strain_rate;      /* of the particle, 1/s; NULL: none is kept */
+    double depth;                   /* of the particle under the face of the soil, m */
 } boundary_terms;
+
+/* Leaves of the motion of a particle along a boundary what is slip, and not shear of the soil between the particle and
+ * its face, whose speed is 2 D n times the depth. The rate is a fit over the support and shows a part of the shear of a
+ * thin layer along the face, so that SHEARS times as much counts as shear; a block that slides has next to none. */
+static void leave_slip(const boundary_terms *p, const double *normal, double *slip)
+{
+    const double speed = mor_vector_length(slip);
+    double shear[3];
+    if (p->strain_rate == NULL || !(speed > 0.0)) {
+        return;
+    }
+    mor_symmetric_apply(p->strain_rate, normal, shear);
+    const double across = mor_vector_dot(shear, normal);
+    for (int a = 0; a < 3; ++a) {
+        shear[a] -= across * normal[a];
+    }
+    const double part = mor_max(1.0 - SHEARS * 2.0 * p->depth * mor_vector_length(shear) / speed, 0.0);
+    for (int a = 0; a < 3; ++a) {
+        slip[a] *= part;
+    }
+}
 
 /* Friction of soil that slides faster than elastic waves explain: where its speed along the boundary exceeds that of a
  * wave as large as the limit of friction, friction becomes the limit against the motion, fully so at twice that speed.
@@ -236,6 +262,7 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
         slip[a] = relative[a] + closing * normal[a];
     }
     if (is_coulomb) {
+        leave_slip(p, normal, slip);
         const double limit = friction_limit(p, along);
         const double drag = -factor * record[MOR_RECORD_IMPEDANCE];
         stick = limit_friction(record, limit, -factor, tangential);
@@ -273,7 +300,8 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
                         .coulomb_pulls = soil->coulomb_pulls,
                         .limits_all = mor_soil_contact_limits_all(contact, soil->coulomb_pulls),
                         .limiter_rate = soil->limiter_rate,
-                        .frees = contact->normals != NULL};
+                        .frees = contact->normals != NULL,
+                        .depth = soil->depth};
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const int64_t i = first + k;
@@ -292,6 +320,7 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         if (soil->of_soil != NULL) {
             p.limiter_rate = 2.0 * soil->of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_LIMITER];
         }
+        p.strain_rate = soil->strain_rate != NULL ? soil->strain_rate + 6 * i : NULL;
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
