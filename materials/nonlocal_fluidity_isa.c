@@ -95,6 +95,20 @@ static double find_start_shear(const fluidity *m, mor_symmetric start, mor_symme
     return root > 0.0 ? 0.5 * m->elastic.two_shear * m->elastic.two_shear * product / root : 0.0;
 }
 
+/* The elastic strain without flow in the step. Where grains flow, or are above the friction at which they begin to, it
+ * is that of a step that flows. */
+static mor_symmetric find_trial(const fluidity *m, const mor_rate_point *p, mor_symmetric start, double volume)
+{
+    const mor_symmetric diffused = mor_log_strain_of_stress(&m->elastic, p->extra);
+    const mor_symmetric exact = mor_log_strain_advance(start, p->gradient);
+    const mor_symmetric trial = mor_symmetric_add(exact, volume, diffused);
+    const double pressure = -m->elastic.bulk * mor_invariant_i1(trial);
+    const double root = m->elastic.two_shear * sqrt(mor_invariant_j2(trial));
+    return p->state[STATE_FLUIDITY] > 0.0 || root > m->static_friction * pressure
+               ? mor_symmetric_add(mor_log_strain_flow(start, p->gradient, exact), volume, diffused)
+               : trial;
+}
+
 /* The update of one particle. Flow keeps the volume, so that the pressure is the trial's. The stress diffusion, a
  * Cauchy stress, is added to the trial as the elastic strain that makes it. */
 static mor_status advance_point(const void *constants, mor_rate_point *p)
@@ -110,9 +124,7 @@ static mor_status advance_point(const void *constants, mor_rate_point *p)
         set_free(m, p, start, volume);
         return MOR_OK;
     }
-    const mor_symmetric exact = mor_log_strain_advance(start, p->gradient);
-    const mor_symmetric trial = mor_symmetric_add(mor_log_strain_flow(start, p->gradient, exact), volume,
-                                                  mor_log_strain_of_stress(&m->elastic, p->extra));
+    const mor_symmetric trial = find_trial(m, p, start, volume);
     const double opening = mor_invariant_i1(trial);
     const double pressure = -m->elastic.bulk * opening;
     const double root = m->elastic.two_shear * sqrt(mor_invariant_j2(trial));

@@ -127,7 +127,7 @@ static mor_status set_state(mor_context *context, mor_interface_law *it, const m
 /* What an instance has worked out. */
 typedef struct constants {
     double wave_speed; /* m/s */
-    double stiffness;  /* density times its square, Pa */
+    double two_shear;  /* 2 G of the first call, about, Pa */
     double length;     /* m */
     bool is_reentrant;
 } constants;
@@ -216,7 +216,7 @@ static mor_status load_point(const mor_interface_law *law, const constants *c, c
     }
     const double strain[6] = {l[0], l[4], l[8], 0.5 * (l[1] + l[3]), 0.5 * (l[5] + l[7]), 0.5 * (l[6] + l[2])};
     mor_step_motion_turn_tensor(turn, strain, turned);
-    const double before = 0.5 * mor_step_motion_find_turning_part(c->stiffness, batch->stress_in + 6 * i, strain);
+    const double before = 0.5 * mor_step_motion_find_turning_part(c->two_shear, batch->stress_in + 6 * i, strain);
     for (int m = 0; m < 6; ++m) {
         const double extra =
             batch->extra_stress_rate != NULL ? 0.5 * batch->extra_stress_rate[6 * i + m] * batch->time_step : 0.0;
@@ -315,10 +315,13 @@ static mor_status external_wave_speed(const mor_material_instance *instance, con
     return MOR_OK;
 }
 
+/* Of the first component of shear on itself, in the stiffness of an interface that tells it: G. */
+enum { SHEAR_PLACE = 21 };
+
 /* Calls the law once: no strain, no stress, the initial state. It tells the speed of sound at once, and whether the
  * library can be called at all. */
 static mor_status try_law(const mor_services *services, const mor_interface_law *law, const constants *c,
-                          double density, double *wave_speed)
+                          double density, double *wave_speed, double *shear_modulus)
 {
     mor_external_point p = {
         .is_first = true, .time_step = law->kind->first_step, .length = c->length, .density = density};
@@ -340,6 +343,7 @@ static mor_status try_law(const mor_services *services, const mor_interface_law 
     for (int a = 0; a < 3; ++a) {
         sum += p.stiffness[6 * a] + p.stiffness[6 * a + 1] + p.stiffness[6 * a + 2];
     }
+    *shear_modulus = status == MOR_OK ? p.stiffness[SHEAR_PLACE] : 0.0;
     *wave_speed = status != MOR_OK ? NAN : p.wave_speed > 0.0 ? p.wave_speed : sqrt(sum / (9.0 * density));
     return MOR_OK;
 }
@@ -357,10 +361,12 @@ static mor_status external_create(const mor_services *services, mor_material_ins
     c->is_reentrant = instance->parameters[MOR_EXTERNAL_IS_REENTRANT] != 0.0;
     c->length = instance->parameters[MOR_EXTERNAL_LENGTH];
     c->wave_speed = instance->parameters[MOR_EXTERNAL_WAVE_SPEED];
-    const mor_status status = try_law(services, law, c, instance->density, &wave_speed);
+    double shear_modulus = 0.0;
+    const mor_status status = try_law(services, law, c, instance->density, &wave_speed, &shear_modulus);
     const bool is_given = c->wave_speed > 0.0;
     c->wave_speed = is_given ? c->wave_speed : wave_speed;
-    c->stiffness = instance->density * c->wave_speed * c->wave_speed;
+    c->two_shear = shear_modulus > 0.0 && isfinite(shear_modulus) ? 2.0 * shear_modulus
+                                                                  : instance->density * c->wave_speed * c->wave_speed;
     if (status != MOR_OK || is_given) {
         return status;
     }

@@ -90,7 +90,7 @@ void mor_step_motion_advance_deformation(const double *l, const double *from, do
     }
 }
 
-double mor_step_motion_find_turning_part(double stiffness, const double *stress, const double *strain)
+double mor_step_motion_find_turning_part(double two_shear, const double *stress, const double *strain)
 {
     double j2[2];
     const double *const tensors[2] = {stress, strain};
@@ -100,7 +100,7 @@ double mor_step_motion_find_turning_part(double stiffness, const double *stress,
         const double deviator[3] = {t[0] - mean, t[1] - mean, t[2] - mean};
         j2[k] = 0.5 * mor_vector_dot(deviator, deviator) + mor_vector_dot(t + 3, t + 3);
     }
-    const double added = stiffness * stiffness * j2[1];
+    const double added = two_shear * two_shear * j2[1];
     const double ratio = j2[0] * j2[0] / (j2[0] * j2[0] + added * added + DBL_MIN); /* 0 where both are 0 */
     return ratio * ratio;
 }

@@ -33,11 +33,11 @@ void mor_step_motion_turn_mandel(const double *turn, const double *t, double *tu
 void mor_step_motion_advance_deformation(const double *l, const double *from, double *to);
 
 /** Returns twice the part of a strain increment that turns with the step, 0 to 1: 2 w of (D6) of
- *  docs/theory/drucker_prager.md. Increments of stress are not known before the law is called: the stiffness stands for
- *  2 G, which is 0.9 of the bulk modulus at a Poisson's ratio of 0.3.
- *  @param stiffness [in]  density times the square of the speed of sound, Pa
+ *  docs/theory/drucker_prager.md. Increments of stress are not known before the law is called: 2 G times
+ *  the strain stands for them.
+ *  @param two_shear [in]  2 G, Pa
  *  @param stress    [in]  shape [6], at the start, Pa
  *  @param strain    [in]  shape [6], of the step, 1 */
-double mor_step_motion_find_turning_part(double stiffness, const double *stress, const double *strain);
+double mor_step_motion_find_turning_part(double two_shear, const double *stress, const double *strain);
 
 #endif

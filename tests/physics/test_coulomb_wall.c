@@ -130,10 +130,15 @@ static void strong_block_slides_by_the_law_on_a_floor_that_only_presses(void **s
     static const char *const strong[] = {"soil[0].material.cohesion='50 kPa'", NULL};
     static const char *const held[] = {"soil[0].material.cohesion='50 kPa'", "numerics.coulomb_tension=held", NULL};
     (void)state;
-    const double found = find_coefficient(slide_with_friction(schemes[0], strong, 0.3));
+    static const double coefficients[] = {0.1, 0.3, 0.4};
+    for (int k = 0; k < 3; ++k) {
+        const double found = find_coefficient(slide_with_friction(schemes[0], strong, coefficients[k]));
+        print_message("strong block, coefficient %.1f: slides as with %.4f\n", coefficients[k], found);
+        scene_expect_near("coefficient", found, coefficients[k],
+                          0.05); /* as of the weak block: comes off, lands again */
+    }
     const double sticky = find_coefficient(slide_with_friction(schemes[0], held, 0.3));
-    print_message("coefficient 0.3: slides as with %.4f; %.4f where tension is held\n", found, sticky);
-    scene_expect_near("coefficient", found, 0.3, 0.05); /* as of the weak block: it comes off and lands again */
+    print_message("coefficient 0.3: slides as with %.4f where tension is held\n", sticky);
     assert_true(sticky > 0.3 + 0.05);
 }
 
@@ -150,7 +155,7 @@ static void coulomb_floor_stronger_than_the_soil_is_rough(void **state)
     for (int k = 0; k < 3; ++k) {
         const double found = find_coefficient(slide_with_friction(schemes[0], weak, coefficients[k]));
         print_message("rough: as with %.4f; coefficient %.1f: as with %.4f\n", wanted, coefficients[k], found);
-        scene_expect_near("coefficient", found, wanted, 0.006); /* grains that have come off slide by the coefficient */
+        scene_expect_near("coefficient", found, wanted, 0.01); /* a seventh of what it was: grains come off and slide */
     }
 }
 

@@ -180,20 +180,22 @@ static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
     mor_set_clear(&folder->context, &rocks);
 }
 
-/* A depth of 0.1 m beside a run-out of 30 m would lie on the axis; 3 m is a tenth, and does not. */
+/* A depth of 0.1 m beside a run-out of 30 m would lie on the axis; 3 m is a tenth, and does not. What is zero throughout
+ * fits any, and says nothing of the others. */
 static void quantities_of_unlike_size_have_charts_of_their_own(void **state)
 {
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
     FILE *file = fopen(run_folder_file(folder, path, "series.csv"), "w");
     assert_non_null(file);
-    fprintf(file, "time [s],step [1],step_length [s],rate_ratio [1],run_out [m],height [m],depth [m],gap [m]\n"
-                  "0,0,1,1,0,3,0,nan\n1,1,1,1,30,2,-0.1,0.02\n");
+    fprintf(file, "time [s],step [1],step_length [s],rate_ratio [1],zero [m],run_out [m],height [m],depth [m],gap [m]\n"
+                  "0,0,1,1,0,0,3,0,nan\n1,1,1,1,0,30,2,-0.1,0.02\n");
     assert_int_equal(fclose(file), 0);
     make_part(folder, "images");
     assert_int_equal(mor_charts_render(&folder->context, folder->path, stdout), MOR_OK);
-    assert_int_equal(access(run_folder_file(folder, path, "images/chart_run_out.png"), R_OK), 0);
+    assert_int_equal(access(run_folder_file(folder, path, "images/chart_zero.png"), R_OK), 0);
     assert_int_equal(access(run_folder_file(folder, path, "images/chart_depth.png"), R_OK), 0);
+    assert_int_not_equal(access(run_folder_file(folder, path, "images/chart_run_out.png"), R_OK), 0);
     assert_int_not_equal(access(run_folder_file(folder, path, "images/chart_height.png"), R_OK), 0);
     assert_int_not_equal(access(run_folder_file(folder, path, "images/chart_gap.png"), R_OK), 0);
 }

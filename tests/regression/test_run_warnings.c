@@ -124,11 +124,34 @@ static void soil_that_lies_unevenly_is_warned_of_at_the_start(void **state)
                                          "-s",  particles[k], NULL};
         program_outcome outcome = program_run(folder, arguments, 0);
         char *text = load_summary(folder, k == 0 ? "uneven" : "even");
-        assert_int_equal(count(text, "at the start the density of a hundredth of the soil is off by"), 1 - k);
-        assert_int_equal(count(text, "set particles = \\\"relaxed\\\" of soil 'sand'"), 1 - k);
+        assert_int_equal(count(text, "% of soil 'sand' is off by more than 10 %"), 1 - k);
+        assert_int_equal(count(text, "particles = \\\"relaxed\\\" places them evenly"), 1 - k);
         free(text);
         program_clear(&outcome);
     }
+}
+
+/* The force on the floor is that of a step; the height is that of an instant. */
+static void force_has_no_value_before_the_first_step(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    const char *const arguments[] = {
+        "run", path,
+        "-t",  "1",
+        "-o",  "mine",
+        "-s",  "end=0.01 s",
+        "-s",  "probes=({ type = \"height\"; }, { type = \"wall_force\"; wall = \"floor\"; direction = (0, -1); })",
+        NULL};
+    finished_run_store_text(folder, rock_in_sand, path);
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_clear(&outcome);
+    char *series = (char *)run_folder_load(finished_run_file(folder, path, "mine", MOR_TABLE_SERIES_FILE), &n_bytes);
+    assert_non_null(series);
+    assert_int_equal(count(series, "nan"), 1);
+    assert_non_null(strstr(series, ",nan\n")); /* the last column of the first row */
+    free(series);
 }
 
 /* Steps are some 0.1 ms long. */
@@ -207,6 +230,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(soil_that_crowds_is_warned_of_at_the_end, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_that_lies_unevenly_is_warned_of_at_the_start, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(force_has_no_value_before_the_first_step, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(window_without_a_measurement_is_warned_of, run_folder_setup,
                                         run_folder_teardown),

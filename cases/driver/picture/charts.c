@@ -247,20 +247,28 @@ static double find_size(const mor_table_data *data, int column)
     return size;
 }
 
-/* Curves of one chart: a smaller one would be a line along the axis. One that is zero throughout fits any. */
-static bool are_alike(double a, double b)
+/* Takes a size into the range of those of a chart, unless one of them would then be a line along the axis beside
+ * another. One that is zero throughout fits any. */
+static bool take_size(double size, double *range)
 {
-    return a == 0.0 || b == 0.0 || (a <= SIZES_MOST * b && b <= SIZES_MOST * a);
+    const double least = size > 0.0 && size < range[0] ? size : range[0];
+    const double most = size > range[1] ? size : range[1];
+    const bool fits = size == 0.0 || most <= SIZES_MOST * least;
+    if (fits && size > 0.0) {
+        range[0] = least;
+        range[1] = most;
+    }
+    return fits;
 }
 
-/* The columns not yet drawn that have the unit of a first one and its size, as many as colors distinguish. */
+/* The columns not yet drawn that have the unit of a first one and sizes alike, as many as colors distinguish. */
 static void add_curves(sheet *s, int first, plate *p)
 {
     const mor_table_data *data = s->data;
-    const double size = find_size(data, first);
+    double range[2] = {INFINITY, 0.0};
     for (int column = first; column < data->n_columns && p->n_curves < CURVES_MAX; ++column) {
         if (!s->is_drawn[column] && strcmp(s->headings[column].unit, s->headings[first].unit) == 0 &&
-            are_alike(size, find_size(data, column))) {
+            take_size(find_size(data, column), range)) {
             double *x = s->room + 2 * (int64_t)p->n_curves * data->n_rows;
             double *y = x + data->n_rows;
             const int64_t n_points = copy_column(data, column, x, y);

@@ -11,7 +11,7 @@
  *  Charts of a run's series over time: one per unit, so that quantities that can be compared share an axis. */
 
 /** Draws images/chart_<first column>.png for every unit and size among the columns of series.csv that change:
- *  quantities of one unit share an axis unless one is more than twenty times as large as the first.
+ *  quantities of one unit share an axis unless one is more than twenty times as large as another.
  *  @param folder  [in]      zero-terminated; the run's folder
  *  @param output  [in,out]  one open stream; the path of each chart is printed to it
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */

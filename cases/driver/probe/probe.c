@@ -527,11 +527,11 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
     memcpy(v->frame.up, simulation->up, sizeof v->frame.up);
 }
 
-/* Forces are those of the last step, or of the last with which the initial stress settled. */
-static bool has_no_force_yet(const view *v)
+/* What holds over a step, as a force, is that of the last step, or of the last with which the initial stress settled. */
+static bool has_no_step_yet(const view *v)
 {
     const mor_simulation *s = v->simulation;
-    return (v->measure->type.traits & MOR_CASE_PROBE_OF_FORCE) != 0 && s->schedule.n_steps == 0 &&
+    return (v->measure->type.traits & MOR_CASE_PROBE_OF_STEP) != 0 && s->schedule.n_steps == 0 &&
            s->settled[MOR_SIMULATION_SETTLED_TIME] == 0.0;
 }
 
@@ -539,7 +539,7 @@ mor_status mor_probe_view_measure(mor_context *context, const view *v, double *v
 {
     view shared = *v;
     *value = NAN;
-    if (has_no_force_yet(v)) {
+    if (has_no_step_yet(v)) {
         return MOR_OK;
     }
     mor_probe_scan_part(&shared);

@@ -94,31 +94,6 @@ static bool is_stopping(const mor_run_options *options, const mor_simulation *s)
            (!isnan(options->stop_at) && mor_schedule_time(&s->schedule) >= options->stop_at);
 }
 
-/* Particles of a lattice lie too near to some faces of bodies and walls, and too far from others. The first sum of
- * densities, in the first step, tells. */
-static mor_status warn_of_placement(mor_context *context, const mor_simulation *s)
-{
-    const double advisable = 0.1; /* relaxed soil: 0.03; evenly cut lattices: 0 */
-    const mor_case *c = s->the_case;
-    const char *on_lattice = NULL;
-    double drift = 0.0;
-    if (!s->has_soil || c->stage.run[0] != '\0' || c->numerics.density_reinitialization == 0) {
-        return MOR_OK;
-    }
-    for (int k = c->n_soils - 1; k >= 0; --k) {
-        on_lattice = c->soils[k].is_relaxed ? on_lattice : c->soils[k].name;
-    }
-    MOR_TRY(context, mor_probe_density_drift(context, s, 99.0, &drift));
-    if (!(drift <= advisable) && on_lattice != NULL) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "at the start the density of a hundredth of the soil is off by %.3g %% or more; below %g %% is "
-                        "advisable: beside slanted and curved faces of walls and bodies the particles of a lattice lie "
-                        "too near or too far; set particles = \"relaxed\" of soil '%s', which places them evenly",
-                        100.0 * drift, 100.0 * advisable, on_lattice);
-    }
-    return MOR_OK;
-}
-
 /* Steps until the end or until the user stops. Snapshots fall on their times exactly; rows of the series are written at
  * the first step at or after theirs, so that they do not change the steps. */
 static mor_status run_steps(mor_context *context, mor_run_files *files, loop_state *p)
@@ -130,9 +105,6 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, loop_sta
         }
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_STEP);
         MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, p->next_snapshot), &p->loop_seconds));
-        if (s->schedule.n_steps == 1) {
-            MOR_TRY(context, warn_of_placement(context, s));
-        }
         p->n_loop_steps += 1;
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
         if (s->soil.largest_speed > p->fastest) {

@@ -262,15 +262,16 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
         slip[a] = relative[a] + closing * normal[a];
     }
     if (is_coulomb) {
-        leave_slip(p, normal, slip);
+        const double speed = mor_vector_length(slip);
         const double limit = friction_limit(p, along);
         const double drag = -factor * record[MOR_RECORD_IMPEDANCE];
         stick = limit_friction(record, limit, -factor, tangential);
         if (!p->coulomb_pulls) {
+            leave_slip(p, normal, slip);
             resist_sliding(slip, limit, limit / drag, tangential);
         }
         if (continues_freely) {
-            add_along_wall(continuation, mor_vector_length(slip) * drag, along, tangential);
+            add_along_wall(continuation, speed * drag, along, tangential);
         }
     }
     for (int a = 0; a < 3; ++a) {

@@ -278,9 +278,9 @@ static void drucker_prager_in_fortran_is_the_built_in_law(void **state)
     assert_true(compare_along_a_path(&own, &it, 2000, false) < 1e-10); /* rounding of two thousand steps */
     assert_true(it.state[0][0] > 0.05);                                /* it has flowed */
     assert_true(fabs(own.state[0][0] / it.state[0][0] - 1.0) < 1e-10);
-    /* Where the elastic increment is as large as the stress, both take the strain nearer to the end of the step; the
-     * built-in law knows 2 G, for which a stiffness stands here: 9e-5 found, half of the rotation of a step is 1e-3. */
-    assert_true(compare_along_a_path(&own, &it, 2000, true) < 2e-4);
+    /* Where the elastic increment is as large as the stress, both take the strain nearer to the end of the step; 2 G
+     * is that of the first call. The built-in law counts stress diffusion among the increment, a ten-thousandth here. */
+    assert_true(compare_along_a_path(&own, &it, 2000, true) < 1e-5);
     mor_material_destroy(&folder->context, &it.instance);
     end(folder, &own);
 }
@@ -327,7 +327,7 @@ static void mohr_coulomb_in_fortran_is_the_built_in_law(void **state)
             mor_material_create(&folder->context, law_named("mohr_coulomb"), density, values, &it.instance), MOR_OK);
         assert_true(compare_along_a_path(&own, &it, 2000, false) < 1e-10); /* rounding of two thousand steps */
         assert_true(it.state[0][0] > 0.04);                                /* it has flowed */
-        assert_true(compare_along_a_path(&own, &it, 2000, true) < 2e-4);   /* as above */
+        assert_true(compare_along_a_path(&own, &it, 2000, true) < 1e-5);   /* as above */
         static const double opening[9] = {0.2, 0.01, 0.0, 0.0, 0.2, 0.0, 0.0, 0.02, 0.2};
         assert_int_equal(step(&own, opening, NULL, 1.0, own.stress, own.state), MOR_OK);
         assert_int_equal(step(&it, opening, NULL, 1.0, it.stress, it.state), MOR_OK);
