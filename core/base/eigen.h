@@ -18,8 +18,8 @@
 /** Rotates in the plane of two axes so that the component between them vanishes. Constant axes make it fast.
  *  @param m          [in,out]  shape [3,3], symmetric; any unit
  *  @param directions [in,out]  shape [3,3], 1
- *  @param p          [in]      first axis
- *  @param q          [in]      second axis
+ *  @param p          [in]      first axis, 0 to 2, 1
+ *  @param q          [in]      second axis, p to 2, not p, 1
  *  Returns: whether there was anything to rotate. */
 static inline bool mor_eigen_rotate(double *m, double *directions, int p, int q)
 {

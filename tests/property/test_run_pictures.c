@@ -180,8 +180,8 @@ static void charts_hold_as_many_curves_as_colors_tell_apart(void **state)
     mor_set_clear(&folder->context, &rocks);
 }
 
-/* A depth of 0.1 m beside a run-out of 30 m would lie on the axis; 3 m is a tenth, and does not. What is zero throughout
- * fits any, and says nothing of the others. */
+/* A depth of 0.1 m beside a run-out of 30 m would lie on the axis; 3 m is a tenth, and does not. What is zero
+ * throughout fits any, and says nothing of the others. */
 static void quantities_of_unlike_size_have_charts_of_their_own(void **state)
 {
     run_folder *folder = *state;

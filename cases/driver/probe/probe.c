@@ -527,7 +527,7 @@ void mor_probe_view_set(const mor_simulation *simulation, int probe, view *v)
     memcpy(v->frame.up, simulation->up, sizeof v->frame.up);
 }
 
-/* What holds over a step, as a force, is that of the last step, or of the last with which the initial stress settled. */
+/* What holds over a step, as a force, is that of the last one, or of the last with which the initial stress settled. */
 static bool has_no_step_yet(const view *v)
 {
     const mor_simulation *s = v->simulation;

@@ -6,7 +6,8 @@
 #include "cases/driver/safety/safety_measure.h"
 
 /** @file
- *  The critical body: what has moved more than a share of the largest displacement when a trial failed.
+ *  The critical body: what has moved more than a share of the largest displacement when a trial failed, but for
+ *  connected parts that are small beside the largest one.
  *  Theory: docs/theory/strength_reduction.md (F4). */
 
 /** The body. Owner: the caller, who ends it with mor_safety_body_clear. */

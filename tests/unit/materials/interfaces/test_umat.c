@@ -279,7 +279,7 @@ static void drucker_prager_in_fortran_is_the_built_in_law(void **state)
     assert_true(it.state[0][0] > 0.05);                                /* it has flowed */
     assert_true(fabs(own.state[0][0] / it.state[0][0] - 1.0) < 1e-10);
     /* Where the elastic increment is as large as the stress, both take the strain nearer to the end of the step; 2 G
-     * is that of the first call. The built-in law counts stress diffusion among the increment, a ten-thousandth here. */
+     * is that of the first call. The built-in law counts stress diffusion in the increment, a ten-thousandth. */
     assert_true(compare_along_a_path(&own, &it, 2000, true) < 1e-5);
     mor_material_destroy(&folder->context, &it.instance);
     end(folder, &own);
