@@ -3,6 +3,7 @@
 #ifndef MOR_MATERIALS_FRAME_INVARIANTS_H
 #define MOR_MATERIALS_FRAME_INVARIANTS_H
 
+#include <float.h>
 #include <math.h>
 
 /** @file
@@ -74,6 +75,16 @@ static inline double mor_invariant_j2(mor_symmetric a)
     const double yz = a.yy - a.zz;
     const double zx = a.zz - a.xx;
     return (xy * xy + yz * yz + zx * zx) * (1.0 / 6.0) + (a.xy * a.xy + a.yz * a.yz + a.zx * a.zx);
+}
+
+/** Part of an increment that is taken half before the rotation of a step and half after it, 0 to 1, unit 1: 2 w of (D6)
+ *  of docs/theory/drucker_prager.md. The rest comes after the rotation.
+ *  @param old   [in]  second invariant of the stress or elastic strain at the start, >= 0; any unit
+ *  @param added [in]  that of the increment, >= 0; unit of old */
+static inline double mor_invariant_turning(double old, double added)
+{
+    const double share = old * old / (old * old + added * added + DBL_MIN); /* 0 where both are 0 */
+    return share * share;
 }
 
 /** The tensor with the mean [unit of a] and the deviator of a scaled by factor [1]. */

@@ -145,10 +145,7 @@ static inline mor_symmetric mor_log_strain_advance(mor_symmetric strain, mor_gra
 static inline mor_symmetric mor_log_strain_flow(mor_symmetric strain, mor_gradient motion, mor_symmetric exact)
 {
     const mor_symmetric stretch = mor_gradient_strain(motion);
-    const double j2 = mor_invariant_j2(strain);
-    const double added = mor_invariant_j2(stretch);
-    const double ratio = j2 * j2 / (j2 * j2 + added * added + DBL_MIN);
-    const double share = ratio * ratio;
+    const double share = mor_invariant_turning(mor_invariant_j2(strain), mor_invariant_j2(stretch));
     const mor_gradient spin = {.xy = 0.5 * (motion.xy - motion.yx),
                                .yx = 0.5 * (motion.yx - motion.xy),
                                .yz = 0.5 * (motion.yz - motion.zy),

@@ -6,7 +6,6 @@
 #include "core/material/kit/lanes.h"
 #include "materials/frame/invariants.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -143,10 +142,7 @@ static MOR_LANES_INLINE mor_symmetric mor_rate_trial(double two_shear, double la
                                                      mor_symmetric extra, mor_gradient gradient)
 {
     const mor_symmetric increment = mor_rate_increment(two_shear, lame, extra, gradient);
-    const double old = mor_invariant_j2(stress);
-    const double added = mor_invariant_j2(increment);
-    const double share = old * old / (old * old + added * added + DBL_MIN); /* 0 where both are 0 */
-    const double before = 0.5 * share * share;
+    const double before = 0.5 * mor_invariant_turning(mor_invariant_j2(stress), mor_invariant_j2(increment));
     const mor_symmetric rotated = mor_symmetric_spin(mor_symmetric_add(stress, before, increment), gradient);
     return mor_symmetric_add(rotated, 1.0 - before, increment);
 }

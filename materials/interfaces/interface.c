@@ -4,6 +4,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/process_lock.h"
+#include "materials/frame/invariants.h"
 #include "materials/interfaces/step_motion.h"
 
 #include <math.h>
@@ -216,7 +217,10 @@ static mor_status load_point(const mor_interface_law *law, const constants *c, c
     }
     const double strain[6] = {l[0], l[4], l[8], 0.5 * (l[1] + l[3]), 0.5 * (l[5] + l[7]), 0.5 * (l[6] + l[2])};
     mor_step_motion_turn_tensor(turn, strain, turned);
-    const double before = 0.5 * mor_step_motion_find_turning_part(c->two_shear, batch->stress_in + 6 * i, strain);
+    /* Increments of stress are not known before the law is called: 2 G times the strain stands for them. */
+    const double added = c->two_shear * c->two_shear * mor_invariant_j2(mor_symmetric_read(strain));
+    const double old = mor_invariant_j2(mor_symmetric_read(batch->stress_in + 6 * i));
+    const double before = 0.5 * mor_invariant_turning(old, added);
     for (int m = 0; m < 6; ++m) {
         const double extra =
             batch->extra_stress_rate != NULL ? 0.5 * batch->extra_stress_rate[6 * i + m] * batch->time_step : 0.0;

@@ -2,9 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "materials/interfaces/step_motion.h"
 
-#include "core/base/math.h"
-
-#include <float.h>
 #include <math.h>
 
 void mor_step_motion_find_turn(const double *l, double *turn)
@@ -88,19 +85,4 @@ void mor_step_motion_advance_deformation(const double *l, const double *from, do
     for (int k = 0; k < 9; ++k) {
         to[k] /= determinant;
     }
-}
-
-double mor_step_motion_find_turning_part(double two_shear, const double *stress, const double *strain)
-{
-    double j2[2];
-    const double *const tensors[2] = {stress, strain};
-    for (int k = 0; k < 2; ++k) {
-        const double *t = tensors[k];
-        const double mean = (t[0] + t[1] + t[2]) / 3.0;
-        const double deviator[3] = {t[0] - mean, t[1] - mean, t[2] - mean};
-        j2[k] = 0.5 * mor_vector_dot(deviator, deviator) + mor_vector_dot(t + 3, t + 3);
-    }
-    const double added = two_shear * two_shear * j2[1];
-    const double ratio = j2[0] * j2[0] / (j2[0] * j2[0] + added * added + DBL_MIN); /* 0 where both are 0 */
-    return ratio * ratio;
 }

@@ -32,12 +32,4 @@ void mor_step_motion_turn_mandel(const double *turn, const double *t, double *tu
  *  @param to   [out]  shape [3,3], 1 */
 void mor_step_motion_advance_deformation(const double *l, const double *from, double *to);
 
-/** Returns twice the part of a strain increment that turns with the step, 0 to 1: 2 w of (D6) of
- *  docs/theory/drucker_prager.md. Increments of stress are not known before the law is called: 2 G times
- *  the strain stands for them.
- *  @param two_shear [in]  2 G, Pa
- *  @param stress    [in]  shape [6], at the start, Pa
- *  @param strain    [in]  shape [6], of the step, 1 */
-double mor_step_motion_find_turning_part(double two_shear, const double *stress, const double *strain);
-
 #endif

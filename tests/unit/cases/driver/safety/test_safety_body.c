@@ -4,7 +4,7 @@
 
 #include "cases/driver/safety/safety_body.h"
 
-/* A layer without ends has one thickness, whatever the period it is computed with, and the criteria of failure count in
+/* The critical body, and a layer without ends: it has one thickness whatever its period, and the criteria count in
  * it. */
 
 static const char text[] =
@@ -80,12 +80,45 @@ static void a_body_without_ends_has_none(void **state)
     scene_free(it);
 }
 
+/* A bounded layer of which the left half has moved, and a grain at its right end, which is no part of the body. */
+static void a_grain_beside_the_body_is_no_part_of_it(void **state)
+{
+    mor_safety_reference reference;
+    mor_safety_body body;
+    (void)state;
+    const char *const settings[] = {"domain={min=('-1 m','-0.5 m');max=('4 m','2 m');}", "soil[0].shape.max=(3, 0.5)",
+                                    NULL};
+    const scene_request request = {.text = text, .settings = (const char *const *[]){settings}, .n_lists = 1};
+    scene *it = scene_new(&request);
+    mor_set *set = &it->simulation.soil.set;
+    int64_t n = 0;
+    int64_t grain = 0;
+    scene_require(it, mor_safety_reference_init(&it->context, &it->simulation, NAN, &reference));
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        const double *place = set->data[MOR_FIELD_POSITION] + 3 * i;
+        grain = place[0] > set->data[MOR_FIELD_POSITION][3 * grain] ? i : grain;
+    }
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        double *place = set->data[MOR_FIELD_POSITION] + 3 * i;
+        const bool has_moved = place[0] < 1.5;
+        n += has_moved;
+        place[1] += has_moved || i == grain ? 0.1 : 0.0;
+    }
+    scene_require(it, mor_safety_body_find(&it->context, &it->simulation, &reference, 0.1, &body));
+    assert_true(n > 0 && body.n == n);
+    assert_false(body.is_part[set->id[grain]]);
+    mor_safety_body_clear(&it->context, &body);
+    mor_safety_reference_clear(&it->context, &reference);
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_height_is_the_thickness_whatever_the_period),
         cmocka_unit_test(a_gravity_along_the_axis_asks_for_a_height),
         cmocka_unit_test(a_body_without_ends_has_none),
+        cmocka_unit_test(a_grain_beside_the_body_is_no_part_of_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
