@@ -54,9 +54,10 @@ const mor_command_info mor_command_sweep = {
         "with "
         "checkpoints.",
     .options = MOR_OPTION_BITS_CASE | MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(RESUME) | MOR_OPTION_BIT(PLAN),
-    .examples = {"moraine sweep cases/srm-slope/sweep.cfg --plan",
-                 "moraine sweep cases/srm-slope/sweep.cfg -o runs/contents -t 8 --set 'spacing=0.6 m'",
-                 "moraine sweep cases/srm-slope/sweep.cfg -o runs/contents --resume"},
+    .examples =
+        {"moraine sweep cases/srm-slope/sweep.cfg --plan",
+         "moraine sweep cases/srm-slope/sweep.cfg -o runs/contents -t 8 --set 'soil[0].material.cohesion=10 kPa'",
+         "moraine sweep cases/srm-slope/sweep.cfg -o runs/contents --resume"},
     .codes = {{MOR_EXIT_OK, "ok: all members ran to their end, whether or not they meet expectations of their case"},
               {MOR_EXIT_FAILED, "members failed, some or all, or results could not be written"},
               {MOR_EXIT_BAD_INPUT, "bad input: the command line, the sweep file or the case of a member is wrong"},
