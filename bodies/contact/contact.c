@@ -287,8 +287,7 @@ static void clear_work(mor_context *context, mor_contact_work *work)
         mor_tree_clear(context, &work->bodies[b].tree);
     }
     for (int k = 0; k < work->n_near; ++k) {
-        MOR_FREE(context, &work->near[k].lanes[0].nodes);
-        MOR_FREE(context, &work->near[k].lanes[1].nodes);
+        mor_contact_free_lanes(context, &work->near[k]);
     }
     MOR_FREE(context, &work->bodies);
     MOR_FREE(context, &work->boxes);
@@ -421,6 +420,7 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
         mor_contact_find_touch(contact, &work->near[touch->near], touch, true,
                                work->support_particles + MOR_CONTACT_SUPPORT * k,
                                work->support_weights + MOR_CONTACT_SUPPORT * k);
+        mor_contact_note_clearance(contact, touch);
     }
     mor_contact_apply_forces(contact, members, step->length);
     MOR_TRY(context, mor_contact_check_depth(context, contact));

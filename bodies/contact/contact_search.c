@@ -171,6 +171,14 @@ static mor_status grow_near(mor_context *context, mor_contact_work *work)
     return MOR_OK;
 }
 
+void mor_contact_free_lanes(mor_context *context, mor_contact_near *near)
+{
+    for (int side = 0; side < 2; ++side) {
+        MOR_FREE(context, &near->lanes[side].nodes);
+        MOR_FREE(context, &near->lanes[side].clear);
+    }
+}
+
 /* Takes a pair into the list of near ones. Room for all nodes of both, so that lists never grow. */
 static mor_status open_near(mor_context *context, mor_contact *contact, int first, int second, int64_t pair)
 {
@@ -193,9 +201,10 @@ static mor_status open_near(mor_context *context, mor_contact *contact, int firs
         mor_contact_lane *lane = &near->lanes[side];
         lane->capacity = owner->group->bodies[owner->body].n_nodes;
         lane->limit = -INFINITY;
-        const mor_status status = MOR_NEW(context, &lane->nodes, lane->capacity, "near nodes");
+        mor_status status = MOR_NEW(context, &lane->nodes, lane->capacity, "near nodes");
+        status = status == MOR_OK ? MOR_NEW(context, &lane->clear, lane->capacity, "near nodes") : status;
         if (status != MOR_OK) {
-            MOR_FREE(context, &near->lanes[0].nodes);
+            mor_contact_free_lanes(context, near);
             return mor_context_pass(context, status, MOR_HERE);
         }
     }
@@ -206,8 +215,7 @@ static mor_status open_near(mor_context *context, mor_contact *contact, int firs
 
 static void close_near(mor_context *context, mor_contact_work *work, mor_contact_near *near)
 {
-    MOR_FREE(context, &near->lanes[0].nodes);
-    MOR_FREE(context, &near->lanes[1].nodes);
+    mor_contact_free_lanes(context, near);
     work->near_of[near->pair] = 0;
     near->pair = -1;
 }
@@ -246,6 +254,7 @@ static void fill_lane(const mor_contact *contact, mor_contact_near *near, int si
     const mor_body *body = &owner->group->bodies[owner->body];
     int32_t particles[MOR_CONTACT_SUPPORT];
     double weights[MOR_CONTACT_SUPPORT];
+    const double travel = pair_travel(contact, near->first, near->second);
     lane->n_nodes = 0;
     for (int64_t node = body->first_node; node < body->first_node + body->n_nodes; ++node) {
         mor_contact_touch touch = {.side = side, .node = node};
@@ -257,10 +266,11 @@ static void fill_lane(const mor_contact *contact, mor_contact_near *near, int si
         }
         mor_contact_find_touch(contact, near, &touch, false, particles, weights);
         if (touch.gap <= SKIN * spacing) {
+            lane->clear[lane->n_nodes] = travel + touch.clearance;
             lane->nodes[lane->n_nodes++] = node;
         }
     }
-    lane->limit = pair_travel(contact, near->first, near->second) + HOLD * spacing;
+    lane->limit = travel + HOLD * spacing;
 }
 
 /* Decides whether a pair is near; makes or drops its lists. */
@@ -337,11 +347,38 @@ static mor_status grow_touches(mor_context *context, mor_contact_work *work, int
     return MOR_OK;
 }
 
+void mor_contact_note_clearance(mor_contact *contact, const mor_contact_touch *touch)
+{
+    const mor_contact_near *near = &contact->work->near[touch->near];
+    near->lanes[touch->side].clear[touch->entry] = pair_travel(contact, near->first, near->second) + touch->clearance;
+}
+
+/* Lists the nodes of a pair that may touch by now. */
+static int64_t list_nodes(const mor_contact *contact, int which, mor_contact_touch *touches)
+{
+    const mor_contact_near *near = &contact->work->near[which];
+    const double travel = pair_travel(contact, near->first, near->second);
+    int64_t n = 0;
+    for (int side = 0; side < 2; ++side) {
+        const mor_contact_lane *lane = &near->lanes[side];
+        for (int64_t m = 0; m < lane->n_nodes; ++m) {
+            if (lane->clear[m] <= travel) {
+                mor_contact_touch *touch = &touches[n++];
+                touch->near = which;
+                touch->side = side;
+                touch->node = lane->nodes[m];
+                touch->entry = m;
+            }
+        }
+    }
+    return n;
+}
+
 /* Lists the nodes to look at, pair by pair; pairs without any are skipped until their lists expire. */
 static mor_status list_touches(mor_context *context, mor_contact *contact)
 {
     mor_contact_work *work = contact->work;
-    int n_active = 0;
+    int n_near = 0;
     int64_t n = 0;
     for (int k = 0; k < work->n_active; ++k) {
         mor_contact_near *near = &work->near[work->active[k]];
@@ -352,27 +389,23 @@ static mor_status list_touches(mor_context *context, mor_contact *contact)
                 is_wall ? near->lanes[0].limit : fmin(near->lanes[0].limit, near->lanes[1].limit);
             continue;
         }
-        work->first_touch[n_active] = n;
-        work->active[n_active++] = work->active[k];
+        work->active[n_near++] = work->active[k];
         n += n_nodes;
     }
-    work->n_active = n_active;
-    work->n_touches = n;
     MOR_TRY(context, grow_touches(context, work, n));
-    n = 0;
-    for (int k = 0; k < n_active; ++k) {
-        const mor_contact_near *near = &work->near[work->active[k]];
-        for (int side = 0; side < 2; ++side) {
-            for (int64_t m = 0; m < near->lanes[side].n_nodes; ++m) {
-                mor_contact_touch *touch = &work->touches[n++];
-                touch->near = work->active[k];
-                touch->side = side;
-                touch->node = near->lanes[side].nodes[m];
-            }
+    work->n_active = 0;
+    work->n_touches = 0;
+    for (int k = 0; k < n_near; ++k) {
+        const int which = work->active[k];
+        const int64_t n_touches = list_nodes(contact, which, work->touches + work->n_touches);
+        if (n_touches > 0) {
+            work->first_touch[work->n_active] = work->n_touches;
+            work->active[work->n_active++] = which;
+            work->n_touches += n_touches;
         }
     }
-    if (n_active > 0) {
-        work->first_touch[n_active] = n;
+    if (work->n_active > 0) {
+        work->first_touch[work->n_active] = work->n_touches;
     }
     return MOR_OK;
 }

@@ -140,8 +140,9 @@ double mor_contact_curvature(const mor_shape *shape, int dimension, const double
     double sum = 0.0;
     mor_vector_tangents(normal, tangents[0], tangents[1]);
     mor_vector_advance(place, CURVATURE_LIFT * spacing - gap, normal, center);
+    const double at_center = mor_shape_distance(shape, center);
     for (int k = 0; k < dimension - 1; ++k) {
-        double rise = -mor_shape_distance(shape, center);
+        double rise = -at_center;
         for (int side = -1; side <= 1; side += 2) {
             mor_vector_advance(center, side * step, tangents[k], beside);
             rise += 0.5 * mor_shape_distance(shape, beside);

@@ -13,6 +13,10 @@
  * part of the next, it grows without bound, and the place in the reference configuration with it. */
 #define LARGEST_SPREAD 6.0
 
+/* Share of the distance to a touch that a pair may travel before it is looked for again: level sets fall by up to
+ * MOR_SHAPE_SLOPE_MOST of the way, and nodes off the particles go farther than these. */
+#define CLEAR_SHARE 0.5
+
 enum { WIDENINGS = 10 };
 
 static void normalize(int dimension, double *vector)
@@ -26,6 +30,15 @@ static void normalize(int dimension, double *vector)
     }
 }
 
+/* Whether the surface around the node is beyond the reach of a contact with a surface of a curvature. */
+static bool is_beyond(const mor_contact *contact, const mor_contact_near *near, double curvature,
+                      mor_contact_touch *touch)
+{
+    const double reach = mor_contact_reach(contact, near, touch, curvature);
+    touch->clearance = CLEAR_SHARE * fmax(0.0, touch->gap - reach);
+    return !(touch->gap < reach);
+}
+
 /* Whether the surface around the node may touch; then normal and curvature are filled in. */
 static bool find_touch_on_wall(const mor_contact *contact, const mor_contact_near *near, const mor_contact_wall *wall,
                                bool is_whole, mor_contact_touch *touch)
@@ -34,7 +47,7 @@ static bool find_touch_on_wall(const mor_contact *contact, const mor_contact_nea
     double place[3], normal[3];
     mor_contact_wall_place(contact, wall, touch->place, place);
     touch->gap = mor_contact_shape_gap(mor_contact_wall_shape(wall), group->dimension, place, group->spacing, NULL);
-    if (!is_whole || !(touch->gap < mor_contact_reach(contact, near, touch, 1.0 / group->spacing))) {
+    if (is_beyond(contact, near, 1.0 / group->spacing, touch) || !is_whole) {
         return false;
     }
     mor_contact_shape_gap(mor_contact_wall_shape(wall), group->dimension, place, group->spacing, normal);
@@ -60,7 +73,7 @@ static bool find_touch_on_rigid(const mor_contact *contact, const mor_contact_ne
     double reference[3], normal[3];
     mor_contact_find_reference(body, touch->place, reference);
     touch->gap = mor_contact_reference_gap(partner->group, body, reference, NULL, NULL);
-    if (!is_whole || !(touch->gap < mor_contact_reach(contact, near, touch, partner->curvature))) {
+    if (is_beyond(contact, near, partner->curvature, touch) || !is_whole) {
         return false;
     }
     double curvature;
@@ -138,6 +151,7 @@ void mor_contact_find_touch(const mor_contact *contact, const mor_contact_near *
     touch->support_count = 0;
     touch->share = 1.0;
     touch->depth = 0.0;
+    touch->clearance = 0.0;
     touch->is_followed = false;
     if (wall != NULL) {
         may_touch = find_touch_on_wall(contact, near, wall, is_whole, touch);

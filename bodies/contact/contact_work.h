@@ -51,6 +51,7 @@ typedef struct mor_contact_body {
 typedef struct mor_contact_lane {
     double limit;   /* the list holds until the pair has traveled so far, m */
     int64_t *nodes; /* shape [capacity]; the first n_nodes are in use; in their group */
+    double *clear;  /* shape [capacity]; of each node: it cannot touch until the pair has traveled so far, m */
     int64_t n_nodes, capacity;
 } mor_contact_lane;
 
@@ -66,6 +67,8 @@ typedef struct mor_contact_touch {
     int near;                          /* index in the list of near pairs */
     int side;                          /* 0: node of the first; 1: of the second */
     int64_t node;                      /* in its group */
+    int64_t entry;                     /* place of the node in its lane */
+    double clearance;                  /* it cannot touch until the pair has traveled so much more, m; 0: unknown */
     double gap;                        /* of the node; negative: depth, m */
     double curvature, other_curvature; /* of the node's surface and of the other one there, 1/m */
     double depth;                      /* deepest point of the surface around the node, m; 0: no touch */
@@ -338,7 +341,15 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64_t members);
 
-/** Finds how a node touches its partner: fills in gap and, when is_whole and it touches, all else; depth is zero
+/** Frees the lists of nodes of a near pair.
+ *  @param near    [in,out]  owned lists become NULL */
+void mor_contact_free_lanes(mor_context *context, mor_contact_near *near);
+
+/** Keeps how far the pair of a touch must travel before its node can touch, so that it is left out until then.
+ *  @param touch   [in]      as mor_contact_find_touch left it */
+void mor_contact_note_clearance(mor_contact *contact, const mor_contact_touch *touch);
+
+/** Finds how a node touches its partner: fills in gap, clearance and, when is_whole and it touches, all else; depth is zero
  *  when it does not.
  *  @param touch     [in,out]  near, side and node are set
  *  @param is_whole  [in]      also fill in what only touching nodes need

@@ -168,8 +168,9 @@ static double segment_distance2(const double *a, const double *b)
     return mor_vector_dot(foot, foot);
 }
 
-/* Squared distance of a point from a triangle: that of its plane when the foot lies inside, else that of the edges. */
-static double triangle_distance2(double triangle[3][3], const double *point)
+/* Squared distance of a point from a triangle, if it is below limit2: that of its plane when the foot lies inside, else
+ * that of the edges. */
+static double triangle_distance2(double triangle[3][3], const double *point, double limit2)
 {
     double corner[3][3];
     for (int k = 0; k < 3; ++k) {
@@ -181,6 +182,11 @@ static double triangle_distance2(double triangle[3][3], const double *point)
     const double v[3] = {corner[2][0] - corner[0][0], corner[2][1] - corner[0][1], corner[2][2] - corner[0][2]};
     double normal[3];
     mor_vector_cross(u, v, normal);
+    const double along = mor_vector_dot(corner[0], normal);
+    const double plane2 = along * along / mor_vector_dot(normal, normal);
+    if (plane2 >= limit2) { /* no point of the triangle is nearer than its plane */
+        return plane2;
+    }
     bool is_inside = true;
     for (int k = 0; k < 3 && is_inside; ++k) {
         /* The origin lies on the inner side of the edge when the volume it spans with edge and normal is positive. */
@@ -189,8 +195,7 @@ static double triangle_distance2(double triangle[3][3], const double *point)
         is_inside = mor_vector_dot(area, normal) >= 0.0;
     }
     if (is_inside) {
-        const double along = mor_vector_dot(corner[0], normal);
-        return along * along / mor_vector_dot(normal, normal);
+        return plane2;
     }
     return mor_min(segment_distance2(corner[0], corner[1]),
                    mor_min(segment_distance2(corner[1], corner[2]), segment_distance2(corner[2], corner[0])));
@@ -201,8 +206,8 @@ static void find_window(const mor_terrain *terrain, const double *point, double 
 {
     for (int a = 0; a < 2; ++a) {
         const double last = (a == 0 ? terrain->n_x : terrain->n_y) - 2;
-        const double from = floor((point[a] - radius - terrain->origin[a]) / terrain->cell[a]);
-        const double to = floor((point[a] + radius - terrain->origin[a]) / terrain->cell[a]);
+        const double from = (point[a] - radius - terrain->origin[a]) / terrain->cell[a];
+        const double to = (point[a] + radius - terrain->origin[a]) / terrain->cell[a];
         window[a][0] = (int)mor_min(mor_max(from, 0.0), last);
         window[a][1] = (int)mor_min(mor_max(to, 0.0), last);
     }
@@ -240,8 +245,9 @@ double mor_terrain_distance(const mor_terrain *terrain, const double *point, dou
             }
             double triangles[2][3][3];
             mor_terrain_triangles(terrain, column, row, triangles);
-            best2 = mor_min(best2,
-                            mor_min(triangle_distance2(triangles[0], point), triangle_distance2(triangles[1], point)));
+            for (int t = 0; t < 2; ++t) {
+                best2 = mor_min(best2, triangle_distance2(triangles[t], point, best2));
+            }
             limit2 = mor_min(limit2, best2);
         }
     }
