@@ -30,24 +30,6 @@ typedef struct pair_sums {
     int64_t end;
 } pair_sums;
 
-/* Solves symmetric * x = b; plane strain: about z only. */
-static void solve_symmetric(int dimension, const double *m, const double *b, double *x)
-{
-    x[0] = x[1] = x[2] = 0.0;
-    if (dimension == 2) {
-        x[2] = m[MOR_ZZ] > 0.0 ? b[2] / m[MOR_ZZ] : 0.0;
-        return;
-    }
-    double cofactors[6];
-    const double determinant = mor_symmetric_cofactors(m, cofactors);
-    if (determinant > 0.0) {
-        mor_symmetric_apply(cofactors, b, x);
-        for (int a = 0; a < 3; ++a) {
-            x[a] /= determinant;
-        }
-    }
-}
-
 /* Center, velocity, inertia and spin of a body from its particles. */
 static void observe_elastic(mor_contact_body *c)
 {
@@ -81,7 +63,7 @@ static void observe_elastic(mor_contact_body *c)
             c->inertia[3 + a] -= m[i] * d[a] * d[(a + 1) % 3];
         }
     }
-    solve_symmetric(c->group->dimension, c->inertia, spin, c->spin);
+    mor_symmetric_solve(c->group->dimension, c->inertia, spin, c->spin);
 }
 
 static void observe_body(mor_contact_body *c)
@@ -136,7 +118,7 @@ static void apply_to_whole(mor_contact *contact, int second, const double *place
     double moment[3], rotation[3];
     double mass = 0.0;
     mor_vector_cross(arm, force, moment);
-    solve_symmetric(group->dimension, c->inertia, moment, rotation);
+    mor_symmetric_solve(group->dimension, c->inertia, moment, rotation);
     for (int64_t i = body->first; i < body->first + body->n_particles; ++i) {
         mass += m[i];
     }

@@ -349,8 +349,8 @@ void mor_contact_free_lanes(mor_context *context, mor_contact_near *near);
  *  @param touch   [in]      as mor_contact_find_touch left it */
 void mor_contact_note_clearance(mor_contact *contact, const mor_contact_touch *touch);
 
-/** Finds how a node touches its partner: fills in gap, clearance and, when is_whole and it touches, all else; depth is zero
- *  when it does not.
+/** Finds how a node touches its partner: fills in gap, clearance and, when is_whole and it touches, all else; depth is
+ *  zero when it does not.
  *  @param touch     [in,out]  near, side and node are set
  *  @param is_whole  [in]      also fill in what only touching nodes need
  *  @param particles [out]     shape [MOR_CONTACT_SUPPORT]; of an elastic partner

@@ -9,9 +9,9 @@
 #include <stdbool.h>
 
 /** @file
- *  Principal values and directions of a symmetric 3 x 3 tensor: the direction whose value is apart from the other two in
- *  closed form, these by one Jacobi rotation in the plane across it. Accurate for equal and nearly equal values, which
- *  soil at rest has everywhere, in a quarter of the time of rotations alone. */
+ *  Principal values and directions of a symmetric 3 x 3 tensor: the direction whose value is apart from the other two
+ *  in closed form, these by one Jacobi rotation in the plane across it. Accurate for equal and nearly equal values,
+ *  which soil at rest has everywhere, in a quarter of the time of rotations alone. */
 
 /* A rotation by less than this changes no number: half of the sweeps would only make it smaller still. */
 #define MOR_EIGEN_NOTHING 1e-18
@@ -53,8 +53,10 @@ static inline bool mor_eigen_rotate(double *m, double *directions, int p, int q)
     return true;
 }
 
-/** Largest root of x^3 - 3 x = 2 half, for 0 <= half <= 1: from sqrt(3) to 2, the others at most half as large. Newton's
- *  method squares three times what the parabola through it is off, less than a thousandth. */
+/** Largest root of x^3 - 3 x = 2 half by Newton's method, which squares three times what a parabola is off, less than
+ *  a thousandth. The root lies from sqrt(3) to 2, the others at most half as far from zero.
+ *  @param half [in]  0 to 1, 1
+ *  Returns: the root, unit 1. */
 static inline double mor_eigen_root(double half)
 {
     double x = 1.73205 + half * (0.32138 - 0.05343 * half);

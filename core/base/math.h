@@ -162,6 +162,23 @@ static inline double mor_symmetric_cofactors(const double *tensor, double *cofac
     return m[MOR_XX] * cofactors[MOR_XX] + m[MOR_XY] * cofactors[MOR_XY] + m[MOR_ZX] * cofactors[MOR_ZX];
 }
 
+/** Solves tensor * x = b, about z only in plane strain; x is zero for a tensor that is not positive definite.
+ *  dimension: 2 or 3; tensor: shape [6]; b and x: shape [3], not aliased; unit of x: that of b over the tensor's. */
+static inline void mor_symmetric_solve(int dimension, const double *tensor, const double *b, double *x)
+{
+    double cofactors[6];
+    const double determinant = mor_symmetric_cofactors(tensor, cofactors);
+    x[0] = x[1] = x[2] = 0.0;
+    if (dimension == 2) {
+        x[2] = tensor[MOR_ZZ] > 0.0 ? b[2] / tensor[MOR_ZZ] : 0.0;
+    } else if (determinant > 0.0) {
+        mor_symmetric_apply(cofactors, b, x);
+        for (int a = 0; a < 3; ++a) {
+            x[a] /= determinant;
+        }
+    }
+}
+
 /** Trace of a symmetric tensor, shape [6]; unit: that of the tensor. */
 static inline double mor_symmetric_trace(const double *tensor)
 {

@@ -24,6 +24,9 @@
 #define STEP_FACTOR_DECAY 0.985
 enum { STEPS_AT_FULL_FACTOR = 150 };
 
+/* How often trapped particles are moved, and steps at the full factor after it. */
+enum { ROUNDS_MOST = 8, STEPS_AFTER_ROUND = 50 };
+
 /* How dense the outside counts, 1: less than the inside, as it forms no layers and the outer layer cannot move. With
  * this the inside has the correct density; measured, see docs/theory/relaxation.md. */
 #define OUTSIDE_DENSITY 0.8
@@ -404,10 +407,38 @@ static double find_smallest_distance(mor_context *context, relaxation *it)
     return smallest;
 }
 
+/* Among solids: of two particles at rest that are too near, the later one goes where there is more room. Returns how
+ * many went. */
+static int free_trapped(relaxation *it, int round)
+{
+    int n_moved = 0;
+    for (int64_t i = 0; it->frame.around != NULL && i < it->n; ++i) {
+        bool is_trapped = false;
+        for (int32_t k = 0; k < it->neighbors.counts[i] && !is_trapped; ++k) {
+            const int32_t j = it->neighbors.rows[i * it->neighbors.capacity + k];
+            double separation[3];
+            for (int a = 0; a < 3; ++a) {
+                separation[a] = it->x[a * it->n_all + i] - it->x[a * it->n_all + j];
+            }
+            is_trapped = j < i && mor_vector_length(separation) < MOR_RELAX_APART;
+        }
+        if (is_trapped && mor_relax_frame_make_room(&it->frame, (uint64_t)round, i, it->x, it->n_all)) {
+            for (int a = 0; a < 3; ++a) {
+                it->displacements[a * it->n + i] = 0.0;
+            }
+            it->rest[i] = it->clear[i] = 0.0;
+            ++n_moved;
+        }
+    }
+    return n_moved;
+}
+
 static mor_status relax_particles(mor_context *context, const mor_relax_request *request, relaxation *it,
                                   mor_relax_points *points)
 {
     double stray = 0.0;
+    int last_full = STEPS_AT_FULL_FACTOR;
+    int n_rounds = 0;
     points->residual = INFINITY;
     it->step_factor = STEP_FACTOR;
     MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
@@ -416,7 +447,7 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
             MOR_TRY(context, mor_relax_neighbors_find(context, &it->neighbors, it->x));
             memset(it->strays, 0, (size_t)it->n * sizeof *it->strays);
         }
-        it->step_factor *= step >= STEPS_AT_FULL_FACTOR ? STEP_FACTOR_DECAY : 1.0;
+        it->step_factor *= step >= last_full ? STEP_FACTOR_DECAY : 1.0;
         find_moves(context, it);
         move_particles(context, it, &points->residual, &stray);
         points->n_steps = step + 1;
@@ -425,8 +456,14 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
                             "relaxation of %lld particles: %d steps, longest displacement %.2g spacings",
                             (long long)it->n, points->n_steps, points->residual);
         }
-        points->is_converged =
-            points->residual < request->largest_residual && find_smallest_distance(context, it) >= MOR_RELAX_APART;
+        const bool is_at_rest = points->residual < request->largest_residual;
+        points->is_converged = is_at_rest && find_smallest_distance(context, it) >= MOR_RELAX_APART;
+        if (is_at_rest && !points->is_converged && n_rounds < ROUNDS_MOST && free_trapped(it, n_rounds) > 0) {
+            ++n_rounds;
+            it->step_factor = STEP_FACTOR;
+            last_full = step + STEPS_AFTER_ROUND;
+            stray = INFINITY;
+        }
     }
     it->smallest_distance = find_smallest_distance(context, it);
     return MOR_OK;

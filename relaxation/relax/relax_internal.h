@@ -136,6 +136,15 @@ double mor_relax_frame_depth(const mor_relax_frame *frame, const double *place);
  *  @param most  [in]  unit spacing */
 double mor_relax_frame_clearance(const mor_relax_frame *frame, const double *place, double most);
 
+/** Moves a particle that has no room to a place in its own shape that has some: of places drawn at random, a spacing
+ *  off faces and solids, the one farthest from any particle. Only with surroundings.
+ *  @param round [in]      counts the calls for one particle: other places are drawn
+ *  @param i     [in]      the particle, one that is not fixed
+ *  @param x     [in,out]  shape [3, n], of all particles; unit spacing; first all x, then all y, then all z
+ *  @param n     [in]      all particles
+ *  Returns: false when the shape has no such place. */
+bool mor_relax_frame_make_room(const mor_relax_frame *frame, uint64_t round, int64_t i, double *x, int64_t n);
+
 /** Moves a place that is nearer to a solid than the least clearance, or inside it, along the solid's normal. What holds
  *  particles off solids is the solids' own; this is for wedges that are too thin for any.
  *  @param place [in,out]  shape [3]; unit spacing

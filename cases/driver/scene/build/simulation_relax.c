@@ -21,7 +21,7 @@
 #define JITTER 0.5
 
 /* The step factor has fallen by then to a millionth: what still moves will not come to rest. */
-enum { STEPS_MOST = 1000 };
+enum { STEPS_MOST = 2000 };
 
 /* Two particles closer to the common face of two regions than this may change places, spacings. */
 #define EXCHANGE 2.0
