@@ -417,10 +417,10 @@ static mor_status run_contact(mor_context *context, void *owner, uint64_t member
     MOR_TRY(context, mor_contact_search(context, contact, members));
     MOR_PARALLEL_FOR (context, k, work->n_touches, TOUCHES_PER_CHUNK) {
         mor_contact_touch *touch = &work->touches[k];
-        mor_contact_find_touch(contact, &work->near[touch->near], touch, true,
-                               work->support_particles + MOR_CONTACT_SUPPORT * k,
+        const mor_contact_near *near = &work->near[touch->near];
+        mor_contact_find_touch(contact, near, touch, true, work->support_particles + MOR_CONTACT_SUPPORT * k,
                                work->support_weights + MOR_CONTACT_SUPPORT * k);
-        mor_contact_note_clearance(contact, touch);
+        near->lanes[touch->side].clear[touch->entry] = near->travel + touch->clearance;
     }
     mor_contact_apply_forces(contact, members, step->length);
     MOR_TRY(context, mor_contact_check_depth(context, contact));

@@ -347,27 +347,17 @@ static mor_status grow_touches(mor_context *context, mor_contact_work *work, int
     return MOR_OK;
 }
 
-void mor_contact_note_clearance(mor_contact *contact, const mor_contact_touch *touch)
-{
-    const mor_contact_near *near = &contact->work->near[touch->near];
-    near->lanes[touch->side].clear[touch->entry] = pair_travel(contact, near->first, near->second) + touch->clearance;
-}
-
 /* Lists the nodes of a pair that may touch by now. */
 static int64_t list_nodes(const mor_contact *contact, int which, mor_contact_touch *touches)
 {
-    const mor_contact_near *near = &contact->work->near[which];
-    const double travel = pair_travel(contact, near->first, near->second);
+    mor_contact_near *near = &contact->work->near[which];
     int64_t n = 0;
+    near->travel = pair_travel(contact, near->first, near->second);
     for (int side = 0; side < 2; ++side) {
         const mor_contact_lane *lane = &near->lanes[side];
         for (int64_t m = 0; m < lane->n_nodes; ++m) {
-            if (lane->clear[m] <= travel) {
-                mor_contact_touch *touch = &touches[n++];
-                touch->near = which;
-                touch->side = side;
-                touch->node = lane->nodes[m];
-                touch->entry = m;
+            if (lane->clear[m] <= near->travel) {
+                touches[n++] = (mor_contact_touch){.near = which, .side = side, .node = lane->nodes[m], .entry = m};
             }
         }
     }

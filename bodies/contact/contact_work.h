@@ -59,6 +59,7 @@ typedef struct mor_contact_lane {
 typedef struct mor_contact_near {
     int first, second; /* bodies; second >= n_bodies: wall second - n_bodies */
     int64_t pair;
+    double travel; /* bound of the path of its points against each other so far, m */
     mor_contact_lane lanes[2];
 } mor_contact_near;
 
@@ -344,10 +345,6 @@ mor_status mor_contact_search(mor_context *context, mor_contact *contact, uint64
 /** Frees the lists of nodes of a near pair.
  *  @param near    [in,out]  owned lists become NULL */
 void mor_contact_free_lanes(mor_context *context, mor_contact_near *near);
-
-/** Keeps how far the pair of a touch must travel before its node can touch, so that it is left out until then.
- *  @param touch   [in]      as mor_contact_find_touch left it */
-void mor_contact_note_clearance(mor_contact *contact, const mor_contact_touch *touch);
 
 /** Finds how a node touches its partner: fills in gap, clearance and, when is_whole and it touches, all else; depth is
  *  zero when it does not.
