@@ -147,7 +147,7 @@ static void what_is_not_written_about_bodies_gets_its_default(void **state)
     const mor_case *c = &f->first;
     assert_int_equal(c->n_soils, 0);
     assert_true(c->contact.friction_coefficient == 0.5 && c->contact.restitution == 0.5);     /* exact */
-    assert_true(c->numerics.body_smoothing_ratio == 1.15 && c->numerics.body_courant == 0.4); /* exact */
+    assert_true(c->numerics.body_smoothing_ratio == 1.15 && c->numerics.body_courant == 0.5); /* exact */
     assert_true(c->numerics.body_damping == 1.0 && c->numerics.hourglass == 0.1);             /* exact */
     assert_true(c->numerics.barrier_radius == 0.01);                                          /* exact: the spacing */
     assert_true(!c->numerics.single_rate && c->numerics.angular_momentum);

@@ -67,14 +67,14 @@ static void the_scheme_of_the_source_has_none_of_our_terms(void **state)
     assert_false(n->lattice_normalization || n->angular_momentum || n->separation_memory);
     assert_true(n->wall_normals == 0 && n->reconstruction == 0 && n->stress_diffusion_limiter == 0);
     assert_true(n->velocity_gradient == 0 && n->gravity_ramp_form == 0 && n->coulomb_tension == 0);
-    assert_true(n->courant == 0.4); /* exact: Zhang et al. (2024) eq. 51 */
+    assert_true(n->courant == 0.4 && n->body_courant == 0.4); /* exact: Zhang et al. (2024) eq. 51 */
     case_reading_read(f, CASE("numerics = { scheme = \"moraine\"; };"), NULL, &f->second);
     n = &f->second.numerics;
     assert_true(n->soil_hourglass > 0.0 && n->lattice_normalization && n->angular_momentum && n->separation_memory);
     assert_true(n->wall_normals == 1 && n->reconstruction == 1 && n->stress_diffusion_limiter == 2);
     assert_true(n->velocity_gradient == 1 && n->gravity_ramp_form == 1 && n->angular_momentum_by == 1);
-    assert_true(n->coulomb_tension == 1 && n->courant == 0.5);
-    assert_int_equal(count_unlike(&f->first, &f->second), 13); /* those above, and the scheme itself */
+    assert_true(n->coulomb_tension == 1 && n->courant == 0.5 && n->body_courant == 0.5);
+    assert_int_equal(count_unlike(&f->first, &f->second), 14); /* those above, and the scheme itself */
 }
 
 /* Wherever the scheme is written: before, after, or on the command line. */
