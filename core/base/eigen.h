@@ -11,7 +11,7 @@
 /** @file
  *  Principal values and directions of a symmetric 3 x 3 tensor: the direction whose value is apart from the other two
  *  in closed form, these by one Jacobi rotation in the plane across it. Accurate for equal and nearly equal values,
- *  which soil at rest has everywhere, in a quarter of the time of rotations alone. */
+ *  which soil at rest has everywhere, in a third of the time of rotations alone. */
 
 /* A rotation by less than this changes no number: half of the sweeps would only make it smaller still. */
 #define MOR_EIGEN_NOTHING 1e-18
