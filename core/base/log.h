@@ -11,7 +11,13 @@ extern "C" {
 #endif
 
 /** Severity of a log line. */
-typedef enum mor_log_level { MOR_LOG_DEBUG, MOR_LOG_INFO, MOR_LOG_WARNING, MOR_LOG_ERROR } mor_log_level;
+typedef enum mor_log_level {
+    MOR_LOG_DEBUG,
+    MOR_LOG_INFO,     /* for the record */
+    MOR_LOG_PROGRESS, /* for people who wait */
+    MOR_LOG_WARNING,
+    MOR_LOG_ERROR
+} mor_log_level;
 
 /** Receives one finished log line.
  *  @param user  [in,out]  what the installer of the sink passed; owned by the installer

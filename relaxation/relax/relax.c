@@ -49,7 +49,8 @@ static double least_thickness(const mor_relax_frame *frame)
     return frame->around == NULL ? THICKNESS_LEAST : THICKNESS_LEAST_AROUND;
 }
 
-enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041, STEPS_TOLD = 100 };
+/* MANY_TOLD: particles from which on people wait. STEPS_TOLD: steps from one report to the next, of few and of many. */
+enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041, MANY_TOLD = 100000, STEPS_TOLD_FEW = 100, STEPS_TOLD_MANY = 25 };
 
 /* State of a relaxation. Positions in units of the spacing. */
 typedef struct relaxation {
@@ -433,6 +434,16 @@ static int free_trapped(relaxation *it, int round)
     return n_moved;
 }
 
+static void tell_progress(mor_context *context, const relaxation *it, const mor_relax_points *points, double at_end)
+{
+    const bool is_many = it->n >= MANY_TOLD;
+    if (points->n_steps % (is_many ? STEPS_TOLD_MANY : STEPS_TOLD_FEW) == 0) {
+        mor_context_log(context, is_many ? MOR_LOG_PROGRESS : MOR_LOG_INFO,
+                        "relaxation of %lld particles: %d steps, longest displacement %.2g spacings, %.2g at the end",
+                        (long long)it->n, points->n_steps, points->residual, at_end);
+    }
+}
+
 static mor_status relax_particles(mor_context *context, const mor_relax_request *request, relaxation *it,
                                   mor_relax_points *points)
 {
@@ -451,10 +462,8 @@ static mor_status relax_particles(mor_context *context, const mor_relax_request 
         find_moves(context, it);
         move_particles(context, it, &points->residual, &stray);
         points->n_steps = step + 1;
-        if (it->frame.around != NULL && points->n_steps % STEPS_TOLD == 0) {
-            mor_context_log(context, MOR_LOG_INFO,
-                            "relaxation of %lld particles: %d steps, longest displacement %.2g spacings",
-                            (long long)it->n, points->n_steps, points->residual);
+        if (it->frame.around != NULL) {
+            tell_progress(context, it, points, request->largest_residual);
         }
         const bool is_at_rest = points->residual < request->largest_residual;
         points->is_converged = is_at_rest && find_smallest_distance(context, it) >= MOR_RELAX_APART;

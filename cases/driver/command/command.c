@@ -13,12 +13,13 @@
 /* Options without a letter, by their place in the table. */
 enum { OPTION_FIRST = 256, LETTERS_BYTES = 3 * MOR_OPTION_COUNT + 1, WORDS_BYTES = 256 };
 
-/* Warnings and errors of the library, for the terminal. */
+/* Progress, warnings and errors of the library, for the terminal. */
 static void show_log(void *user, mor_log_level level, const char *text)
 {
-    if (level >= MOR_LOG_WARNING) {
+    if (level >= MOR_LOG_PROGRESS) {
+        const char *kind = level == MOR_LOG_WARNING ? "warning: " : level == MOR_LOG_ERROR ? "error: " : "";
         fflush(stdout); /* what was said before comes first, also where both go into one file */
-        fprintf((FILE *)user, "moraine: %s: %s\n", level == MOR_LOG_WARNING ? "warning" : "error", text);
+        fprintf((FILE *)user, "moraine: %s%s\n", kind, text);
     }
 }
 

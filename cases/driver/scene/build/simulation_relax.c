@@ -23,6 +23,9 @@
 /* The step factor has fallen by then to a millionth: what still moves will not come to rest. */
 enum { STEPS_MOST = 2000 };
 
+/* Particles whose relaxation takes so long that people are told. */
+#define MANY 1e5
+
 /* Two particles closer to the common face of two regions than this may change places, spacings. */
 #define EXCHANGE 2.0
 
@@ -134,9 +137,11 @@ static mor_status add_fixed(mor_context *context, soil_relaxation *it, const dou
     return MOR_OK;
 }
 
+/* Walls out of reach are left out, so that soil that is relaxed once serves cases that differ in these alone. */
 static mor_status add_walls(mor_context *context, soil_relaxation *it)
 {
     for (int w = 0; w < it->the_case->n_walls; ++w) {
+        const int64_t n_before = it->n_points;
         mor_lattice_points points = {NULL, 0};
         double *shares = NULL;
         mor_status status = mor_simulation_fill_wall(context, it->the_case, w, MOR_CASE_WALL_LAYERS, &points, &shares);
@@ -146,7 +151,9 @@ static mor_status add_walls(mor_context *context, soil_relaxation *it)
         mor_lattice_clear(context, &points);
         MOR_FREE(context, &shares);
         MOR_TRY(context, status);
-        it->solids[it->n_solids++] = it->the_case->walls[w].shape;
+        if (it->n_points > n_before) {
+            it->solids[it->n_solids++] = it->the_case->walls[w].shape;
+        }
     }
     return MOR_OK;
 }
@@ -312,6 +319,11 @@ static mor_status relax_among(mor_context *context, const soil_relaxation *it, m
     request.volume = 0.0;
     for (int k = 0; k < it->n; ++k) {
         request.volume += (double)it->counts[k] * cell_volume(c);
+    }
+    if (request.volume >= MANY * cell_volume(c)) {
+        mor_context_log(context, MOR_LOG_PROGRESS,
+                        "%.0f particles are relaxed; the first run of a case takes minutes for that, others read them",
+                        request.volume / cell_volume(c));
     }
     mor_point_cache_init(&cache, context->cache_folder);
     mor_status status = mor_point_cache_relax(context, &cache, &request, &points);
