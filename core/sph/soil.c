@@ -258,6 +258,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
+    MOR_TRY(context, mor_soil_allocate_places(context, soil));
     MOR_TRY(context, MOR_NEW(context, &soil->at_wall, soil->tree.n_clusters, "clusters at walls"));
     if (mor_composite_is(soil->material)) {
         MOR_TRY(context, MOR_NEW(context, &soil->of_soil, padded * MOR_PAIR_OF_SOIL_SIZE, "soils of the particles"));
@@ -381,6 +382,10 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->extra);
     mor_pair_singles_clear(context, &soil->singles);
     MOR_FREE(context, &soil->regularization);
+    mor_skin_places_clear(context, &soil->listed);
+    mor_skin_places_clear(context, &soil->faced);
+    mor_tree_clear(context, &soil->faced_tree);
+    MOR_FREE(context, &soil->ranges);
     MOR_FREE(context, &soil->order);
     MOR_FREE(context, &soil->one_soil);
     MOR_FREE(context, &soil->of_soil);
@@ -425,7 +430,7 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
     MOR_TRY(context, mor_soil_contact_borrow(context, &soil->boundaries[soil->n_boundaries], boundary, stress,
                                              soil->settings.dimension, soil->tree.n_clusters));
     soil->n_boundaries += 1;
-    soil->has_lists = false;
+    mor_soil_forget_lists(soil);
     if (soil->sleep.states != NULL) {
         MOR_TRY(context, mor_sleep_add_bodies(context, &soil->sleep, boundary->n_patches));
     }
@@ -437,7 +442,7 @@ mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_
 {
     for (int k = 0; k < soil->n_boundaries; ++k) {
         if (soil->boundaries[k].boundary == boundary) {
-            soil->has_lists = false;
+            mor_soil_forget_lists(soil);
             return mor_soil_contact_set_barrier(context, &soil->boundaries[k], barrier,
                                                 MOR_KERNEL_SUPPORT * soil->smoothing_length);
         }
@@ -474,6 +479,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     const double n = (double)soil->set.n_particles;
     const double padded = (double)(soil->tree.n_clusters * MOR_CLUSTER);
     double bytes = n * (sizeof *soil->set.id + sizeof *soil->order) + padded * MOR_RECORD_SIZE * sizeof(double);
+    bytes += (6.0 * n + 24.0 * (double)soil->tree.n_clusters) * sizeof(double);
     for (int field = 0; field < soil->set.n_fields; ++field) {
         bytes +=
             soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;

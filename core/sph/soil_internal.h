@@ -60,11 +60,14 @@ bool mor_soil_has_quiet(const void *owner);
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT; MOR_ERROR_MEMORY. */
 mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_particles);
 
-/** Finds which blocks see one another and what moves beside them, after each build of the lists.
- *  @param position [in]  shape [n_particles, 3], unit m
- *  @param reach    [in]  of the lists, unit m
+/** Makes room for where particles were when lists were built.
+ *  @param soil [in,out]  with its tree
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil);
+
+/** Finds which blocks have points of bodies on their lists, after each build of these or of the particles' lists.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
-mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil, const double *position, double reach);
+mor_status mor_soil_list_sleep_bodies(mor_context *context, mor_soil *soil);
 
 /** Lists what a resumed run needs of the soil that slept.
  *  Returns: MOR_OK; as mor_state_add. */

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Stages that move particles: drifts, kick, neighbor search, packing, and their checks. */
+/* Stages that move particles: drifts, kick, packing, and their checks. */
 #include "core/sph/soil_internal.h"
 
 #include "core/base/math.h"
@@ -32,7 +32,7 @@ static void drift_half(mor_context *context, mor_soil *soil, mor_view *view, dou
     double *density = mor_view_write(view, MOR_FIELD_DENSITY);
     const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
     const double *rate = mor_view_read(view, MOR_FIELD_DENSITY_RATE);
-    double *drift = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->drift);
+    mor_soil *bounds = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, soil);
     const int64_t n = soil->set.n_particles;
     MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
         const int64_t first = block * MOR_BLOCK;
@@ -47,7 +47,8 @@ static void drift_half(mor_context *context, mor_soil *soil, mor_view *view, dou
             density[i] += half_step * rate[i];
         }
     }
-    *drift += half_step * soil->largest_speed;
+    bounds->listed.drift += half_step * soil->largest_speed;
+    bounds->faced.drift += half_step * soil->largest_speed;
 }
 
 mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)
@@ -68,107 +69,6 @@ mor_status mor_soil_drift_second(mor_context *context, void *owner, mor_view *vi
     mor_images_put_inside(context, &soil->images, soil->set.n_particles, mor_view_write(view, MOR_FIELD_POSITION),
                           mor_view_write(view, MOR_FIELD_CROSSINGS));
     return mor_soil_check_domain(context, soil, view, step);
-}
-
-static void sort_particles(mor_soil *soil, mor_view *view)
-{
-    int32_t *order = mor_view_write_shared(view, MOR_RESOURCE_ORDER, soil->order);
-    mor_tree_order(mor_view_read(view, MOR_FIELD_POSITION), 3, soil->set.n_particles, order);
-    mor_set_permute(&soil->set, order);
-    mor_view_renew(view);
-    soil->has_lists = false;
-}
-
-void mor_soil_sort(mor_context *context, mor_soil *soil)
-{
-    mor_view view = mor_view_open(&soil->set, NULL);
-    double *position = mor_view_write(&view, MOR_FIELD_POSITION);
-    mor_period_round_places(&soil->period, soil->set.n_particles, 3, position);
-    mor_images_put_inside(context, &soil->images, soil->set.n_particles, position, NULL);
-    sort_particles(soil, &view);
-}
-
-/* What pair loops read of a particle among several soils; it changes with the order of the particles only. */
-static void pack_soils(mor_context *context, const mor_soil *soil, const double *part)
-{
-    const int64_t n = soil->set.n_particles;
-    for (int64_t i = 0; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
-        const int index = soil->kinds[(int)part[i < n ? i : n - 1]].same_as;
-        double *of_soil = soil->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
-        of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * soil->pair_soils[index].limiter_rate;
-        of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
-    }
-    mor_images_follow(context, &soil->images, soil->of_soil, MOR_PAIR_OF_SOIL_SIZE, -1);
-    MOR_PARALLEL_FOR (context, block, mor_block_count(soil->tree.n_clusters), 1) {
-        mor_pair_find_one_soil(&soil->inner, soil->of_soil, block * MOR_BLOCK,
-                               mor_block_end(block, soil->tree.n_clusters), soil->one_soil);
-    }
-}
-
-/* How many patches of boundaries clusters list. */
-static void find_clusters_at_walls(mor_soil *soil)
-{
-    memset(soil->at_wall, 0, (size_t)soil->tree.n_clusters);
-    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
-        for (int64_t place = 0; place < contact->relation.n_occupied; ++place) {
-            const int64_t cluster = contact->relation.occupied[place];
-            const int64_t n = soil->at_wall[cluster] + contact->first_slot[place + 1] - contact->first_slot[place];
-            soil->at_wall[cluster] = n < 2 ? (int8_t)n : 2;
-        }
-    }
-}
-
-static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view)
-{
-    const double reach = mor_soil_reach(soil);
-    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
-    mor_relation_points points;
-    mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
-    const int n_regions = soil->settings.n_regions > 1 ? soil->settings.n_regions : 1;
-    MOR_TRY(context, mor_soil_build_inner(context, soil, position, reach, &points));
-    inner->generation = soil->set.generation;
-    const double *state[MOR_MATERIAL_STATES_MAX];
-    mor_view_read_state(view, soil->state_fields, soil->material->n_state, state);
-    if (soil->of_soil != NULL) {
-        pack_soils(context, soil, state[0]);
-    }
-    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
-        MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
-        MOR_TRY(context, mor_soil_contact_build(context, contact, &points, reach));
-        contact->relation.generation = soil->set.generation;
-    }
-    find_clusters_at_walls(soil);
-    if (soil->sleep.states != NULL) {
-        MOR_TRY(context, mor_soil_list_sleep_neighbors(context, soil, points.records, reach));
-    }
-    soil->drift = 0.0;
-    soil->has_lists = true;
-    return MOR_OK;
-}
-
-mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *view, const mor_step *step)
-{
-    mor_soil *soil = owner;
-    const double *drift = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, &soil->drift);
-    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
-    if (step->number > 0 && step->number % (uint64_t)soil->settings.scheme.sort_interval == 0) {
-        sort_particles(soil, view);
-    }
-    /* Two particles that each move by the drift change their distance by twice as much. */
-    double other = *drift;
-    for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_lists; ++k) {
-        const double moved = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
-        other = other >= moved ? other : moved;
-        soil->has_lists = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
-    }
-    const bool is_fit = *drift + other <= soil->settings.scheme.skin_ratio * soil->settings.spacing;
-    if (soil->has_lists && is_fit) {
-        return MOR_OK;
-    }
-    MOR_TRY(context, mor_soil_check_images(context, soil, false, step->time));
-    return build_lists(context, soil, view);
 }
 
 /* What packing reads and writes. */

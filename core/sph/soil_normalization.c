@@ -76,7 +76,7 @@ mor_status mor_soil_normalize(mor_context *context, mor_soil *soil)
     MOR_TRY(context, mor_soil_build_inner(context, soil, soil->set.data[MOR_FIELD_POSITION], reach, &points));
     pack_places(soil);
     mor_soil_follow_records(context, soil);
-    soil->has_lists = false;
+    mor_soil_forget_lists(soil);
     MOR_TRY(context, MOR_NEW(context, &places, soil->tree.n_clusters * MOR_CLUSTER, "kernel sums of the start"));
     find_places(soil, &constants, places);
     const int64_t n = sum_inner(soil, places, &sum);

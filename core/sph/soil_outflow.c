@@ -135,7 +135,7 @@ void mor_soil_fit(mor_soil *soil)
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact_at(soil, k)->relation.n_clusters = soil->tree.n_clusters;
     }
-    soil->has_lists = false;
+    mor_soil_forget_lists(soil);
 }
 
 mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *view, const mor_step *step)

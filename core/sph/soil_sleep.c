@@ -117,11 +117,11 @@ static limits find_limits(const mor_soil *soil)
                     scheme->sleep_speed * sqrt(gravity * soil->settings.spacing)};
 }
 
-mor_status mor_soil_list_sleep_neighbors(mor_context *context, mor_soil *soil, const double *position, double reach)
+mor_status mor_soil_list_sleep_bodies(mor_context *context, mor_soil *soil)
 {
     mor_sleep *sleep = &soil->sleep;
     int n_patches = soil->n_walls;
-    MOR_TRY(context, mor_sleep_find_neighbors(context, sleep, position, soil->set.n_particles, reach));
+    mor_sleep_forget_bodies(sleep);
     for (int k = 0; k < soil->n_boundaries; ++k) {
         n_patches += soil->boundaries[k].boundary->n_patches;
         mor_sleep_mark_bodies(sleep, &soil->boundaries[k].relation);

@@ -84,10 +84,10 @@ static double time_repetition(soil_bench *it, soil_timing *timing)
     const double start = mor_wall_time();
     for (int n = 0; n < it->n_steps; ++n) {
         const bool is_sorting = schedule->n_steps % (uint64_t)it->n_steps == 0;
-        const double drift = soil->drift;
+        const uint64_t n_before = soil->inner.n_builds;
         scene_step(it->scene, 1);
         *(is_sorting ? &sorting : &others) += stepper->last_seconds[it->neighbors];
-        timing->n_lists += soil->drift < drift; /* new lists start from rest */
+        timing->n_lists += soil->inner.n_builds > n_before;
     }
     const double excess = sorting - others / (it->n_steps - 1);
     const double surplus = excess * (1.0 - (double)it->n_steps / it->sort_interval);

@@ -90,7 +90,7 @@ static inline void periodic_wrap(const periodic *p)
         if (p->block[soil->set.id[i]] == 1) {
             position[3 * i] -= p->length * floor((position[3 * i] - p->length) / p->length);
         }
-        soil->has_lists = false; /* particles have jumped */
+        mor_soil_forget_lists(soil); /* particles have jumped */
     }
 }
 

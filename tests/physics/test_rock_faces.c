@@ -54,7 +54,7 @@ static double find_largest_skew(const char *material, const char *normals)
             stress[3 + a] = 0.0;
         }
         free_block_field(it, MOR_FIELD_DENSITY)[0] = DENSITY;
-        it->simulation.soil.has_lists = false;
+        mor_soil_forget_lists(&it->simulation.soil);
         const double along[3] = {m[0], m[3], m[6]};
         const double across[3] = {m[1], m[4], m[7]};
         scene_step(it, 1);

@@ -39,7 +39,7 @@ static const double *press(scene *it)
             free_block_field(it, MOR_FIELD_STRESS)[6 * k + a] = a < 3 ? -PRESSURE : 0.0;
         }
     }
-    it->simulation.soil.has_lists = false; /* particles may have been put elsewhere */
+    mor_soil_forget_lists(&it->simulation.soil); /* particles may have been put elsewhere */
     scene_step(it, 1);
     return free_block_field(it, MOR_FIELD_ACCELERATION);
 }

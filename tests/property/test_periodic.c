@@ -38,7 +38,7 @@ static void move_faces(scene *it, double share)
         double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
         mor_period_wrap(&soil->period, x, x);
     }
-    soil->has_lists = false;
+    mor_soil_forget_lists(soil);
 }
 
 /* Particles of which lists hold an image. */

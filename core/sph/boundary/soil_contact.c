@@ -28,6 +28,9 @@ static mor_status prepare_contact(mor_context *context, mor_soil_contact *contac
     if (!contact->is_wall || contact->base != NULL) {
         MOR_TRY(context, MOR_NEW(context, &contact->built, 3 * n, "boundary points of the lists"));
     }
+    if (!contact->is_wall) {
+        MOR_TRY(context, MOR_NEW(context, &contact->ranges, 6 * (2 * contact->tree.n_clusters + 1), "displacements"));
+    }
     mor_tree_resize(&contact->tree, contact->n_points);
     mor_tree_fit(&contact->tree, contact->boundary->records, RECORD);
     return contact->is_wall ? mor_images_init(context, &contact->images, contact->period, n) : MOR_OK;
@@ -218,6 +221,7 @@ void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->base);
     MOR_FREE(context, &contact->base_normals);
     MOR_FREE(context, &contact->built);
+    MOR_FREE(context, &contact->ranges);
     MOR_FREE(context, &contact->farthest);
     MOR_FREE(context, &contact->first_slot);
     MOR_FREE(context, &contact->first_of_patch);
@@ -313,6 +317,20 @@ double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact)
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 1, find_farthest, contact, contact->farthest,
                &farthest);
     return mor_larger(sqrt(farthest), mor_wall_blocks_drift(contact));
+}
+
+bool mor_soil_contact_lists_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil,
+                                 double way, double support, double reach)
+{
+    const mor_skin_side own = {.tree = &contact->tree,
+                               .records = contact->boundary->records,
+                               .stride = RECORD,
+                               .built = contact->built,
+                               .ranges = contact->ranges,
+                               .way = way};
+    mor_skin_measure(context, &own);
+    return mor_skin_holds(context, soil, &own, support, reach) &&
+           mor_wall_blocks_hold(context, contact, soil, way, support, reach);
 }
 
 /* The patch of a point. */

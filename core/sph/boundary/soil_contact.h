@@ -6,6 +6,7 @@
 #include "core/geometry/motion.h"
 #include "core/particle/boundary.h"
 #include "core/particle/images.h"
+#include "core/particle/skin.h"
 #include "core/sph/pair/pair.h"
 #include "core/sph/sleep/sleep.h"
 
@@ -115,6 +116,7 @@ typedef struct mor_soil_contact {
     double *hold;         /* shape [capacity]; scratch: largest depth of soil in some slots, m; NULL without */
     double deepest;       /* that soil lay in it in the last step, m; 0: none does */
     double *built;        /* shape [n_points, 3]; where the points were when the lists were built, m; or NULL */
+    double *ranges;       /* shape [2 * clusters - 1, 6]; displacements since, see skin.h, m; NULL: a wall */
     double *farthest;     /* shape [n_points / 1024 + 1]; largest squared drift of blocks of points, m2 */
     const mor_period *period; /* of space; borrowed; NULL: none */
     mor_images images;        /* of a wall's points, behind them in all arrays of points; of no period: zeroed */
@@ -213,6 +215,14 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
 /** Returns how far any point of the boundary has moved since the lists were built, unit m; not a number when a
  *  position is none. */
 double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact);
+
+/** Returns whether no point that was not listed has come within the support of the soil.
+ *  @param soil    [in]      measured
+ *  @param way     [in]      that mor_soil_contact_drift gives now, unit m
+ *  @param support [in]      of the kernel, unit m
+ *  @param reach   [in]      of the lists, unit m */
+bool mor_soil_contact_lists_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil,
+                                 double way, double support, double reach);
 
 /** Returns the largest speed of a point, unit m/s. */
 double mor_soil_contact_speed(const mor_soil_contact *contact);

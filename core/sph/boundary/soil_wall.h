@@ -62,6 +62,15 @@ mor_status mor_wall_blocks_fill(mor_context *context, mor_soil_contact *contact,
 /** Returns how far particles that are not filled may have moved at most since the lists were built, unit m. */
 double mor_wall_blocks_drift(const mor_soil_contact *contact);
 
+/** Returns whether no block that is not filled has come within the support of the soil since the lists were built.
+ *  @param contact [in]  also one without blocks
+ *  @param soil    [in]  measured
+ *  @param way     [in]  longest displacement of the wall since, unit m
+ *  @param support [in]  of the kernel, unit m
+ *  @param reach   [in]  of the lists, unit m */
+bool mor_wall_blocks_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil, double way,
+                          double support, double reach);
+
 /** Finds the box of all particles of a wall that does not rotate, filled or not.
  *  @param contact [in]   with blocks
  *  @param box     [out]  shape [6]; minimum and maximum corner, unit m */

@@ -75,6 +75,12 @@ bool mor_sleep_body_rests(double *rest, const double *const places[3], double le
     return rest[MOR_SLEEP_REST_TIME] >= after;
 }
 
+void mor_sleep_forget_bodies(mor_sleep *sleep)
+{
+    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
+    memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
+}
+
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies)
 {
     for (int64_t place = 0; place < bodies->n_occupied; ++place) {
@@ -187,8 +193,7 @@ mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, cons
 {
     const mor_sleep_job job = {.n_particles = n_particles, .position = position};
     sleep->n_blocks = count_blocks(n_particles);
-    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
-    memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
+    mor_sleep_forget_bodies(sleep);
     MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
         find_boxes(sleep, &job, block);
     }

@@ -102,6 +102,9 @@ mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bo
 bool mor_sleep_body_rests(double *rest, const double *const places[3], double length, double displacement,
                           double after);
 
+/** Takes no block for held, and none for one at bodies: their lists are built anew. */
+void mor_sleep_forget_bodies(mor_sleep *sleep);
+
 /** Keeps blocks that list points of bodies from being held: forces on bodies are found in every step.
  *  @param bodies [in]      particle -> points of bodies, current */
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies);

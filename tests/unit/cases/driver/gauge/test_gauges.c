@@ -119,7 +119,7 @@ static void parts_that_share_a_face_of_the_lattice_add_up(void **state)
         it->simulation.soil.set.data[MOR_FIELD_VELOCITY][3 * i + 1] = 0.0;
         n_on_face += x[3 * i + 1] == 0.03125;
     }
-    it->simulation.soil.has_lists = false;
+    mor_soil_forget_lists(&it->simulation.soil);
     scene_step(it, 1);
     const mor_gauge *g = it->simulation.probes->gauges.of;
     const double whole = g[0].numbers[MOR_GAUGE_NOW];

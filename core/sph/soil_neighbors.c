@@ -1,0 +1,176 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Order of the particles and lists of who sees whom: when they are made, and how long they hold. */
+#include "core/sph/soil_internal.h"
+
+#include "core/base/memory.h"
+#include "core/base/parallel.h"
+#include "core/base/reduce.h"
+#include "core/particle/kernel.h"
+#include "core/particle/skin.h"
+
+#include <string.h>
+
+static void sort_particles(mor_soil *soil, mor_view *view)
+{
+    int32_t *order = mor_view_write_shared(view, MOR_RESOURCE_ORDER, soil->order);
+    mor_tree_order(mor_view_read(view, MOR_FIELD_POSITION), 3, soil->set.n_particles, order);
+    mor_set_permute(&soil->set, order);
+    mor_view_renew(view);
+    mor_soil_forget_lists(soil);
+}
+
+void mor_soil_sort(mor_context *context, mor_soil *soil)
+{
+    mor_view view = mor_view_open(&soil->set, NULL);
+    double *position = mor_view_write(&view, MOR_FIELD_POSITION);
+    mor_period_round_places(&soil->period, soil->set.n_particles, 3, position);
+    mor_images_put_inside(context, &soil->images, soil->set.n_particles, position, NULL);
+    sort_particles(soil, &view);
+}
+
+/* What pair loops read of a particle among several soils; it changes with the order of the particles only. */
+static void pack_soils(mor_context *context, const mor_soil *soil, const double *part)
+{
+    const int64_t n = soil->set.n_particles;
+    for (int64_t i = 0; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
+        const int index = soil->kinds[(int)part[i < n ? i : n - 1]].same_as;
+        double *of_soil = soil->of_soil + i * MOR_PAIR_OF_SOIL_SIZE;
+        of_soil[MOR_PAIR_OF_SOIL_LIMITER] = 0.5 * soil->pair_soils[index].limiter_rate;
+        of_soil[MOR_PAIR_OF_SOIL_INDEX] = index;
+    }
+    mor_images_follow(context, &soil->images, soil->of_soil, MOR_PAIR_OF_SOIL_SIZE, -1);
+    MOR_PARALLEL_FOR (context, block, mor_block_count(soil->tree.n_clusters), 1) {
+        mor_pair_find_one_soil(&soil->inner, soil->of_soil, block * MOR_BLOCK,
+                               mor_block_end(block, soil->tree.n_clusters), soil->one_soil);
+    }
+}
+
+/* How many patches of boundaries clusters list. */
+static void find_clusters_at_walls(mor_soil *soil)
+{
+    memset(soil->at_wall, 0, (size_t)soil->tree.n_clusters);
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        for (int64_t place = 0; place < contact->relation.n_occupied; ++place) {
+            const int64_t cluster = contact->relation.occupied[place];
+            const int64_t n = soil->at_wall[cluster] + contact->first_slot[place + 1] - contact->first_slot[place];
+            soil->at_wall[cluster] = n < 2 ? (int8_t)n : 2;
+        }
+    }
+}
+
+mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil)
+{
+    MOR_TRY(context, mor_tree_init(context, &soil->faced_tree, soil->tree.n_points));
+    MOR_TRY(context, MOR_NEW(context, &soil->ranges, 6 * (2 * soil->tree.n_clusters - 1), "displacements"));
+    MOR_TRY(context, mor_skin_places_init(context, &soil->listed, &soil->tree, soil->ranges));
+    return mor_skin_places_init(context, &soil->faced, &soil->faced_tree, soil->ranges);
+}
+
+/* Lists of particles. */
+static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view, mor_relation_points *points)
+{
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
+    mor_relation *inner = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->inner);
+    MOR_TRY(context, mor_soil_build_inner(context, soil, position, mor_soil_reach(soil), points));
+    inner->generation = soil->set.generation;
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    mor_view_read_state(view, soil->state_fields, soil->material->n_state, state);
+    if (soil->of_soil != NULL) {
+        pack_soils(context, soil, state[0]);
+    }
+    if (soil->sleep.states != NULL) {
+        MOR_TRY(context, mor_sleep_find_neighbors(context, &soil->sleep, points->records, soil->set.n_particles,
+                                                  mor_soil_reach(soil)));
+    }
+    mor_skin_places_keep(context, &soil->listed, position);
+    soil->has_lists = true;
+    return MOR_OK;
+}
+
+/* Lists of walls and rocks, as particles at some points see them. */
+static mor_status build_faces(mor_context *context, mor_soil *soil, mor_view *view, mor_relation_points *points)
+{
+    const double reach = mor_soil_reach(soil);
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
+    const int n_regions = soil->settings.n_regions > 1 ? soil->settings.n_regions : 1;
+    mor_view_write_shared(view, MOR_RESOURCE_LISTS, soil);
+    mor_tree_resize(&soil->faced_tree, points->tree->n_points);
+    mor_tree_fit(&soil->faced_tree, points->records, points->stride);
+    points->tree = &soil->faced_tree;
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact *contact = mor_soil_contact_at(soil, k);
+        MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
+        MOR_TRY(context, mor_soil_contact_build(context, contact, points, reach));
+        contact->relation.generation = soil->set.generation;
+    }
+    find_clusters_at_walls(soil);
+    mor_skin_places_keep(context, &soil->faced, position);
+    soil->has_faces = true;
+    return MOR_OK;
+}
+
+/* Whether no two particles that are not listed have come within the support. Two that each move by the drift change
+ * their distance by twice as much. Behind periodic faces particles are put back, so that nobody knows how far they have
+ * moved. */
+static bool lists_hold(mor_context *context, const mor_soil *soil, const double *position, double support, double reach)
+{
+    if (2.0 * soil->listed.drift <= reach - support || soil->period.is_any) {
+        return 2.0 * soil->listed.drift <= reach - support;
+    }
+    const mor_skin_side own = mor_skin_places_measure(context, &soil->listed, position);
+    return mor_skin_holds(context, &own, &own, support, reach);
+}
+
+/* Likewise for particles and points of walls and rocks. */
+static bool faces_hold(mor_context *context, mor_soil *soil, const double *position, double support, double reach)
+{
+    double ways[MOR_SOIL_WALLS_MAX + MOR_SOIL_BOUNDARIES_MAX];
+    double farthest = 0.0;
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        ways[k] = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
+        farthest = mor_larger(farthest, ways[k]);
+    }
+    const bool is_near = soil->faced.drift + farthest <= reach - support;
+    if (is_near || soil->period.is_any) {
+        return is_near;
+    }
+    const mor_skin_side own = mor_skin_places_measure(context, &soil->faced, position);
+    bool do_hold = true;
+    for (int k = 0; k < mor_soil_contact_count(soil) && do_hold; ++k) {
+        do_hold = mor_soil_contact_lists_hold(context, mor_soil_contact_at(soil, k), &own, ways[k], support, reach);
+    }
+    return do_hold;
+}
+
+mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *view, const mor_step *step)
+{
+    mor_soil *soil = owner;
+    const double support = MOR_KERNEL_SUPPORT * soil->smoothing_length;
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
+    mor_relation_points points = {&soil->tree, position, 3};
+    mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, soil);
+    mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
+    if (step->number > 0 && step->number % (uint64_t)soil->settings.scheme.sort_interval == 0) {
+        sort_particles(soil, view);
+        position = points.records = mor_view_read(view, MOR_FIELD_POSITION);
+    }
+    for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_faces; ++k) {
+        soil->has_faces = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
+    }
+    soil->has_lists = soil->has_lists && lists_hold(context, soil, position, support, mor_soil_reach(soil));
+    /* Images are those of both. */
+    soil->has_faces = soil->has_faces && (soil->has_lists || !soil->period.is_any) &&
+                      faces_hold(context, soil, position, support, mor_soil_reach(soil));
+    soil->has_lists = soil->has_lists && (soil->has_faces || !soil->period.is_any);
+    const bool holds = soil->has_lists && soil->has_faces;
+    if (!soil->has_lists) {
+        MOR_TRY(context, mor_soil_check_images(context, soil, false, step->time));
+        MOR_TRY(context, build_lists(context, soil, view, &points));
+    }
+    if (!soil->has_faces) {
+        MOR_TRY(context, build_faces(context, soil, view, &points));
+    }
+    return holds || soil->sleep.states == NULL ? MOR_OK : mor_soil_list_sleep_bodies(context, soil);
+}
