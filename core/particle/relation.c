@@ -56,6 +56,17 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
     memset(relation, 0, sizeof *relation);
 }
 
+void mor_relation_restore_near(const mor_relation *relation, int64_t first, int64_t last)
+{
+    for (int64_t cluster = first; cluster < last; ++cluster) {
+        const int32_t count = relation->counts[cluster];
+        if (relation->near_counts[cluster] != count) {
+            memcpy(mor_relation_near(relation, cluster), relation->lists[cluster], (size_t)count * sizeof(int32_t));
+            relation->near_counts[cluster] = count;
+        }
+    }
+}
+
 /* Its variants, see core/base/isa.h. */
 MOR_ISA_DECLARE(int64_t, mor_relation_list,
                 (mor_relation * relation, const mor_relation_points *source, const mor_relation_points *target,

@@ -15,7 +15,7 @@
 
 /** When a relation is rebuilt. */
 typedef enum mor_configuration {
-    MOR_CONFIGURATION_CURRENT,  /* rebuilt when particles have moved half the skin */
+    MOR_CONFIGURATION_CURRENT,  /* rebuilt when it may lack a neighbor, see skin.h */
     MOR_CONFIGURATION_REFERENCE /* built once */
 } mor_configuration;
 
@@ -46,6 +46,12 @@ static inline int32_t *mor_relation_near(const mor_relation *relation, int64_t c
 {
     return relation->lists[cluster] + relation->counts[cluster];
 }
+
+/** Has all of a list in the short lists of clusters that no loop shortens in this step, for those who read them.
+ *  @param relation [in]  built
+ *  @param first    [in]  first cluster
+ *  @param last     [in]  one past the last cluster */
+void mor_relation_restore_near(const mor_relation *relation, int64_t first, int64_t last);
 
 /** Makes an empty relation for a number of source clusters.
  *  @param context       [in,out]  the number of threads is taken now

@@ -128,10 +128,20 @@ typedef struct check {
 static const double *range_of(const mor_skin_side *side, int64_t index, double *alike)
 {
     for (int a = 0; a < 3; ++a) {
-        alike[a] = -side->way;
-        alike[3 + a] = side->way;
+        alike[a] = -side->displacement;
+        alike[3 + a] = side->displacement;
     }
     return side->ranges != NULL ? side->ranges + 6 * index : alike;
+}
+
+static double gap2_of(const double *box, const double *other)
+{
+    double gap2 = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double gap = mor_max(0.0, mor_max(other[a] - box[3 + a], box[a] - other[3 + a]));
+        gap2 += gap * gap;
+    }
+    return gap2;
 }
 
 /* Whether displacements cannot have brought points that were not listed within the support. */
@@ -142,16 +152,13 @@ static bool is_sure(const check *it, const node_pair *pair)
     const double *other = it->target->tree->boxes + 6 * pair->target.index;
     const double *range = range_of(it->source, pair->source.index, alike[0]);
     const double *against = range_of(it->target, pair->target.index, alike[1]);
-    double gap2 = 0.0;
-    double way2 = 0.0;
+    double relative2 = 0.0;
     for (int a = 0; a < 3; ++a) {
-        const double gap = mor_max(0.0, mor_max(other[a] - box[3 + a], box[a] - other[3 + a]));
-        const double way = mor_max(range[3 + a] - against[a], against[3 + a] - range[a]);
-        gap2 += gap * gap;
-        way2 += way * way;
+        const double relative = mor_max(range[3 + a] - against[a], against[3 + a] - range[a]);
+        relative2 += relative * relative;
     }
-    const double room = mor_max(sqrt(gap2), it->reach) - it->support;
-    return way2 <= room * room;
+    const double room = mor_max(sqrt(gap2_of(box, other)), it->reach) - it->support;
+    return relative2 <= room * room;
 }
 
 static double distance2(const double *a, const double *b)
@@ -171,12 +178,41 @@ static int64_t points_end(const mor_skin_side *side, int64_t cluster)
     return end < side->tree->n_points ? end : side->tree->n_points;
 }
 
-/* Compares the points of two clusters. */
-static bool clusters_hold(const check *it, int64_t source, int64_t target)
+static void find_box(const mor_skin_side *side, int64_t cluster, double *box)
 {
+    for (int a = 0; a < 3; ++a) {
+        box[a] = INFINITY;
+        box[3 + a] = -INFINITY;
+    }
+    for (int64_t i = cluster * MOR_CLUSTER; i < points_end(side, cluster); ++i) {
+        for (int a = 0; a < 3; ++a) {
+            box[a] = mor_min(box[a], side->records[i * side->stride + a]);
+            box[3 + a] = mor_max(box[3 + a], side->records[i * side->stride + a]);
+        }
+    }
+}
+
+/* Compares the boxes of two clusters. */
+static bool boxes_hold(const check *it, const node_pair *pair)
+{
+    double box[6];
+    double other[6];
+    find_box(it->source, pair->source.begin, box);
+    find_box(it->target, pair->target.begin, other);
+    return gap2_of(box, other) > it->support * it->support ||
+           gap2_of(it->source->tree->boxes + 6 * pair->source.index,
+                   it->target->tree->boxes + 6 * pair->target.index) <= it->reach * it->reach;
+}
+
+/* Compares the points of two clusters. */
+static bool clusters_hold(const check *it, const node_pair *pair)
+{
+    const int64_t source = pair->source.begin;
+    const int64_t target = pair->target.begin;
     const double support2 = it->support * it->support;
     const double reach2 = it->reach * it->reach;
-    if (it->source->records == NULL || it->target->records == NULL) {
+    if (it->source->records == NULL || it->target->records == NULL ||
+        (it->source->asks_boxes && !boxes_hold(it, pair))) {
         return false;
     }
     for (int64_t i = source * MOR_CLUSTER; i < points_end(it->source, source); ++i) {
@@ -236,7 +272,7 @@ static bool pair_holds(const check *it, const node_pair *pair)
         }
         if (!is_leaf(&top)) {
             depth += divide(it, &top, stack + depth);
-        } else if (++n_leaves > it->most_leaves || !clusters_hold(it, top.source.begin, top.target.begin)) {
+        } else if (++n_leaves > it->most_leaves || !clusters_hold(it, &top)) {
             return false;
         }
     }
@@ -252,7 +288,7 @@ static int find_tasks(const check *it, node_pair *tasks)
         const int n_before = n;
         has_divided = false;
         n = 0;
-        node_pair next[3 * TASKS];
+        node_pair next[TASKS];
         for (int k = 0; k < n_before; ++k) {
             if (is_sure(it, &tasks[k])) {
                 continue;
@@ -275,11 +311,14 @@ bool mor_skin_holds(mor_context *context, const mor_skin_side *source, const mor
                     double reach)
 {
     check it = {.source = source, .target = target, .support = support, .reach = reach};
-    node_pair tasks[3 * TASKS];
-    bool holds[3 * TASKS];
+    node_pair tasks[TASKS];
+    bool holds[TASKS];
     bool is_true = true;
     if (source->tree->n_clusters == 0 || target->tree->n_clusters == 0) {
         return true;
+    }
+    if (!(reach > support)) {
+        return false;
     }
     const int n = find_tasks(&it, tasks);
     if (n == 0) {

@@ -21,9 +21,10 @@ typedef struct mor_skin_side {
                             * do not tell counts as seen */
     int stride;            /* doubles per record, 1 */
     const double *built;   /* shape [n_points, 3]; where they were when the lists were built, m; NULL: where they are */
-    double *ranges; /* shape [2 * n_clusters - 1, 6]; least, then largest displacement of the points of a node, by
-                            * axis, m; NULL: none is more than the way */
-    double way;     /* longest displacement, where there are no ranges, m */
+    double *ranges;      /* shape [2 * n_clusters - 1, 6]; least, then largest displacement of the points of a node, by
+                            * axis, m; NULL: none is longer than the displacement */
+    double displacement; /* longest one, where there are no ranges, m */
+    bool asks_boxes;     /* of the source: clusters see one another when their boxes are within the support */
 } mor_skin_side;
 
 /** Where particles were when lists of them were built, and a bound of how far they have moved since. Owner: whoever
@@ -56,12 +57,22 @@ mor_skin_side mor_skin_places_measure(mor_context *context, const mor_skin_place
  *  @param side [in,out]  ranges are written */
 void mor_skin_measure(mor_context *context, const mor_skin_side *side);
 
+/** Returns whether a bound of the displacements of both sides says that lists hold. Without a skin they are built in
+ *  each step.
+ *  @param drift [in]  of the source, unit m
+ *  @param other [in]  of the target, unit m
+ *  @param skin  [in]  reach less support, unit m */
+static inline bool mor_skin_is_bounded(double drift, double other, double skin)
+{
+    return skin > 0.0 && drift + other <= skin;
+}
+
 /** Returns whether all pairs within the support were within the reach when the lists were built.
  *  @param source  [in]  measured
  *  @param target  [in]  measured; the same object: who see one another
  *  @param support [in]  unit m
  *  @param reach   [in]  of the lists, >= support, unit m
- *  Returns: true; false where one was not, or where it would cost more than new lists to find out. */
+ *  Returns: true; false where one was not, without a skin, or where it would cost more than new lists to find out. */
 bool mor_skin_holds(mor_context *context, const mor_skin_side *source, const mor_skin_side *target, double support,
                     double reach);
 

@@ -81,7 +81,7 @@ static const mor_stage soil_stages[] = {
      "positions and densities to the middle of the step", NULL},
     {"neighbors", mor_soil_find_neighbors, BIT(POSITION) | SHARED(BOUNDARIES) | SHARED(STATE), 0,
      SHARED(LISTS) | SHARED(ORDER) | SHARED(BOUNDS),
-     "sorts particles at an interval; rebuilds neighbor lists when particles have moved by the skin", NULL},
+     "sorts particles at an interval; rebuilds neighbor lists when they may lack a neighbor", NULL},
     {"hold", mor_soil_hold, STANDING | SHARED(STATE), 0, SHARED(LISTS),
      "finds the soil that is not released, when there is such", mor_soil_may_hold},
     {"sleep", mor_soil_sleep, BIT(POSITION) | BIT(MASS) | BIT(QUIET) | SHARED(BOUNDARIES), 0,
@@ -382,9 +382,9 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->extra);
     mor_pair_singles_clear(context, &soil->singles);
     MOR_FREE(context, &soil->regularization);
-    mor_skin_places_clear(context, &soil->listed);
-    mor_skin_places_clear(context, &soil->faced);
-    mor_tree_clear(context, &soil->faced_tree);
+    mor_skin_places_clear(context, &soil->list_places);
+    mor_skin_places_clear(context, &soil->boundary_places);
+    mor_tree_clear(context, &soil->boundary_tree);
     MOR_FREE(context, &soil->ranges);
     MOR_FREE(context, &soil->order);
     MOR_FREE(context, &soil->one_soil);

@@ -115,15 +115,15 @@ typedef struct mor_soil {
     double largest_speed;                       /* after the last kick, m/s */
     double largest_acceleration;                /* in the last step, m/s2 */
     bool is_relaxing;                           /* it is brought to rest: what moves is no flow */
-    mor_skin_places listed;                     /* of particles when the lists of particles were built */
-    mor_skin_places faced;                      /* when those of walls and rocks were; with a tree of its own */
-    mor_tree faced_tree;                        /* of the particles then */
+    mor_skin_places list_places;                /* of particles when the lists of particles were built */
+    mor_skin_places boundary_places;            /* when those of walls and rocks were; with a tree of its own */
+    mor_tree boundary_tree;                     /* of the particles then */
     double *ranges;                             /* shape [2 * clusters - 1, 6]; scratch, see core/particle/skin.h, m */
     bool has_outflow;                           /* particles are to be removed at the end of the step */
     int64_t n_outflow;                          /* particles that have left the domain since the start */
     double outflow[MOR_SOIL_OUTFLOW_STATE];     /* of those, units of the enum above */
     bool has_lists;                             /* lists exist and belong to the present order */
-    bool has_faces;                             /* likewise those of walls and rocks */
+    bool has_boundary_lists;                    /* likewise those of walls and rocks */
     mor_soil_failure failure;                   /* what a step failed at, for a report */
     double gravity[3];                          /* in the last step, with the ramp, m/s2 */
     double wall_force[MOR_SOIL_WALLS_MAX][3];   /* of the soil on each wall in the last step, N (N/m in plane strain) */
@@ -171,7 +171,7 @@ mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_
 static inline void mor_soil_forget_lists(mor_soil *soil)
 {
     soil->has_lists = false;
-    soil->has_faces = false;
+    soil->has_boundary_lists = false;
 }
 
 /** Returns the reference density of a particle's soil, unit kg/m3.

@@ -45,6 +45,7 @@ void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constant
         const int64_t last = (chunk + 1) * CLUSTERS;
         if (mor_sleep_is(arrays->asleep, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
             clear_outputs(arrays, chunk * CLUSTERS, last < n ? last : n);
+            mor_relation_restore_near(arrays->inner, chunk * CLUSTERS, last < n ? last : n);
         } else {
             loop(constants, arrays, chunk * CLUSTERS, last < n ? last : n);
         }

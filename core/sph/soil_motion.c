@@ -47,8 +47,8 @@ static void drift_half(mor_context *context, mor_soil *soil, mor_view *view, dou
             density[i] += half_step * rate[i];
         }
     }
-    bounds->listed.drift += half_step * soil->largest_speed;
-    bounds->faced.drift += half_step * soil->largest_speed;
+    bounds->list_places.drift += half_step * soil->largest_speed;
+    bounds->boundary_places.drift += half_step * soil->largest_speed;
 }
 
 mor_status mor_soil_drift_first(mor_context *context, void *owner, mor_view *view, const mor_step *step)

@@ -62,10 +62,10 @@ static void find_clusters_at_walls(mor_soil *soil)
 
 mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil)
 {
-    MOR_TRY(context, mor_tree_init(context, &soil->faced_tree, soil->tree.n_points));
+    MOR_TRY(context, mor_tree_init(context, &soil->boundary_tree, soil->tree.n_points));
     MOR_TRY(context, MOR_NEW(context, &soil->ranges, 6 * (2 * soil->tree.n_clusters - 1), "displacements"));
-    MOR_TRY(context, mor_skin_places_init(context, &soil->listed, &soil->tree, soil->ranges));
-    return mor_skin_places_init(context, &soil->faced, &soil->faced_tree, soil->ranges);
+    MOR_TRY(context, mor_skin_places_init(context, &soil->list_places, &soil->tree, soil->ranges));
+    return mor_skin_places_init(context, &soil->boundary_places, &soil->boundary_tree, soil->ranges);
 }
 
 /* Lists of particles. */
@@ -84,21 +84,22 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
         MOR_TRY(context, mor_sleep_find_neighbors(context, &soil->sleep, points->records, soil->set.n_particles,
                                                   mor_soil_reach(soil)));
     }
-    mor_skin_places_keep(context, &soil->listed, position);
+    mor_skin_places_keep(context, &soil->list_places, position);
     soil->has_lists = true;
     return MOR_OK;
 }
 
 /* Lists of walls and rocks, as particles at some points see them. */
-static mor_status build_faces(mor_context *context, mor_soil *soil, mor_view *view, mor_relation_points *points)
+static mor_status build_boundary_lists(mor_context *context, mor_soil *soil, mor_view *view,
+                                       mor_relation_points *points)
 {
     const double reach = mor_soil_reach(soil);
     const double *position = mor_view_read(view, MOR_FIELD_POSITION);
     const int n_regions = soil->settings.n_regions > 1 ? soil->settings.n_regions : 1;
     mor_view_write_shared(view, MOR_RESOURCE_LISTS, soil);
-    mor_tree_resize(&soil->faced_tree, points->tree->n_points);
-    mor_tree_fit(&soil->faced_tree, points->records, points->stride);
-    points->tree = &soil->faced_tree;
+    mor_tree_resize(&soil->boundary_tree, points->tree->n_points);
+    mor_tree_fit(&soil->boundary_tree, points->records, points->stride);
+    points->tree = &soil->boundary_tree;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
@@ -106,40 +107,47 @@ static mor_status build_faces(mor_context *context, mor_soil *soil, mor_view *vi
         contact->relation.generation = soil->set.generation;
     }
     find_clusters_at_walls(soil);
-    mor_skin_places_keep(context, &soil->faced, position);
-    soil->has_faces = true;
+    mor_skin_places_keep(context, &soil->boundary_places, position);
+    soil->has_boundary_lists = true;
     return MOR_OK;
 }
 
-/* Whether no two particles that are not listed have come within the support. Two that each move by the drift change
- * their distance by twice as much. Behind periodic faces particles are put back, so that nobody knows how far they have
- * moved. */
-static bool lists_hold(mor_context *context, const mor_soil *soil, const double *position, double support, double reach)
+/* Motion since lists were built, smoothing lengths, beyond which listed particles may be too far apart for places in
+ * single precision. */
+#define FARTHEST 64.0
+
+/* Whether no two particles that are not listed have come within the support. Behind periodic faces, where particles are
+ * put back, bounds are all there is. */
+static bool lists_hold(mor_context *context, const mor_soil *soil, const double *position, double support, double skin)
 {
-    if (2.0 * soil->listed.drift <= reach - support || soil->period.is_any) {
-        return 2.0 * soil->listed.drift <= reach - support;
+    const double drift = soil->list_places.drift;
+    if (mor_skin_is_bounded(drift, drift, skin) || soil->period.is_any || drift > FARTHEST * soil->smoothing_length) {
+        return mor_skin_is_bounded(drift, drift, skin);
     }
-    const mor_skin_side own = mor_skin_places_measure(context, &soil->listed, position);
-    return mor_skin_holds(context, &own, &own, support, reach);
+    mor_skin_side own = mor_skin_places_measure(context, &soil->list_places, position);
+    own.asks_boxes = soil->sleep.states != NULL;
+    return mor_skin_holds(context, &own, &own, support, support + skin);
 }
 
 /* Likewise for particles and points of walls and rocks. */
-static bool faces_hold(mor_context *context, mor_soil *soil, const double *position, double support, double reach)
+static bool boundary_lists_hold(mor_context *context, mor_soil *soil, const double *position, double support,
+                                double skin)
 {
-    double ways[MOR_SOIL_WALLS_MAX + MOR_SOIL_BOUNDARIES_MAX];
+    double displacements[MOR_SOIL_WALLS_MAX + MOR_SOIL_BOUNDARIES_MAX];
     double farthest = 0.0;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        ways[k] = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
-        farthest = mor_larger(farthest, ways[k]);
+        displacements[k] = mor_soil_contact_drift(context, mor_soil_contact_at(soil, k));
+        farthest = mor_larger(farthest, displacements[k]);
     }
-    const bool is_near = soil->faced.drift + farthest <= reach - support;
-    if (is_near || soil->period.is_any) {
-        return is_near;
+    const bool is_bounded = mor_skin_is_bounded(soil->boundary_places.drift, farthest, skin);
+    if (is_bounded || soil->period.is_any) {
+        return is_bounded;
     }
-    const mor_skin_side own = mor_skin_places_measure(context, &soil->faced, position);
+    const mor_skin_side own = mor_skin_places_measure(context, &soil->boundary_places, position);
     bool do_hold = true;
     for (int k = 0; k < mor_soil_contact_count(soil) && do_hold; ++k) {
-        do_hold = mor_soil_contact_lists_hold(context, mor_soil_contact_at(soil, k), &own, ways[k], support, reach);
+        do_hold = mor_soil_contact_lists_hold(context, mor_soil_contact_at(soil, k), &own, displacements[k], support,
+                                              support + skin);
     }
     return do_hold;
 }
@@ -148,6 +156,7 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
 {
     mor_soil *soil = owner;
     const double support = MOR_KERNEL_SUPPORT * soil->smoothing_length;
+    const double skin = soil->settings.scheme.skin_ratio * soil->settings.spacing;
     const double *position = mor_view_read(view, MOR_FIELD_POSITION);
     mor_relation_points points = {&soil->tree, position, 3};
     mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, soil);
@@ -156,21 +165,21 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
         sort_particles(soil, view);
         position = points.records = mor_view_read(view, MOR_FIELD_POSITION);
     }
-    for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_faces; ++k) {
-        soil->has_faces = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
+    for (int k = 0; k < mor_soil_contact_count(soil) && soil->has_boundary_lists; ++k) {
+        soil->has_boundary_lists = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
     }
-    soil->has_lists = soil->has_lists && lists_hold(context, soil, position, support, mor_soil_reach(soil));
+    soil->has_lists = soil->has_lists && lists_hold(context, soil, position, support, skin);
     /* Images are those of both. */
-    soil->has_faces = soil->has_faces && (soil->has_lists || !soil->period.is_any) &&
-                      faces_hold(context, soil, position, support, mor_soil_reach(soil));
-    soil->has_lists = soil->has_lists && (soil->has_faces || !soil->period.is_any);
-    const bool holds = soil->has_lists && soil->has_faces;
+    soil->has_boundary_lists = soil->has_boundary_lists && (soil->has_lists || !soil->period.is_any) &&
+                               boundary_lists_hold(context, soil, position, support, skin);
+    soil->has_lists = soil->has_lists && (soil->has_boundary_lists || !soil->period.is_any);
+    const bool holds = soil->has_lists && soil->has_boundary_lists;
     if (!soil->has_lists) {
         MOR_TRY(context, mor_soil_check_images(context, soil, false, step->time));
         MOR_TRY(context, build_lists(context, soil, view, &points));
     }
-    if (!soil->has_faces) {
-        MOR_TRY(context, build_faces(context, soil, view, &points));
+    if (!soil->has_boundary_lists) {
+        MOR_TRY(context, build_boundary_lists(context, soil, view, &points));
     }
     return holds || soil->sleep.states == NULL ? MOR_OK : mor_soil_list_sleep_bodies(context, soil);
 }

@@ -247,8 +247,8 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_LARGEST, 2, regularize_block, &job, soil->room.values, largest);
     mor_soil *bounds = mor_view_write_shared(view, MOR_RESOURCE_BOUNDS, soil);
-    bounds->listed.drift += sqrt(largest[FARTHEST]);
-    bounds->faced.drift += sqrt(largest[FARTHEST]);
+    bounds->list_places.drift += sqrt(largest[FARTHEST]);
+    bounds->boundary_places.drift += sqrt(largest[FARTHEST]);
     soil->largest_speed = sqrt(largest[FASTEST]);
     return MOR_OK;
 }

@@ -5,6 +5,7 @@
 
 #include "cases/driver/probe/probe_row_internal.h"
 #include "core/base/math.h"
+#include "core/base/parallel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -242,18 +243,22 @@ static mor_status boulder_height(mor_context *context, const view *v, double *va
 {
     double sum = 0.0;
     double volume = 0.0;
-    (void)context;
-    for (int k = 0; k < v->simulation->the_case->n_bodies; ++k) {
-        const mor_body *body = find_boulder(v, k);
-        column it;
-        if (body == NULL || !mor_probe_is_inside(v, body->center)) {
-            continue;
+    const int n = v->simulation->the_case->n_bodies;
+    column columns[MOR_CASE_BODIES_MAX];
+    MOR_PARALLEL_FOR (context, k, n, 1) {
+        const mor_body *body = find_boulder(v, (int)k);
+        columns[k] = (column){.volume = 0.0};
+        if (body != NULL && mor_probe_is_inside(v, body->center)) {
+            find_column(v, body, &columns[k]);
         }
-        find_column(v, body, &it);
-        if (it.volume > 0.0) {
-            const double depth = it.highest - it.lowest + v->points.spacing;
+    }
+    for (int k = 0; k < n; ++k) {
+        const column *it = &columns[k];
+        if (it->volume > 0.0) {
+            const mor_body *body = find_boulder(v, k);
+            const double depth = it->highest - it->lowest + v->points.spacing;
             const double part = find_volume(body);
-            sum += part * (mor_vector_dot(body->center, v->frame.up) - it.raised / it.volume) / depth;
+            sum += part * (mor_vector_dot(body->center, v->frame.up) - it->raised / it->volume) / depth;
             volume += part;
         }
     }

@@ -320,17 +320,20 @@ double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact)
 }
 
 bool mor_soil_contact_lists_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil,
-                                 double way, double support, double reach)
+                                 double displacement, double support, double reach)
 {
     const mor_skin_side own = {.tree = &contact->tree,
                                .records = contact->boundary->records,
                                .stride = RECORD,
                                .built = contact->built,
                                .ranges = contact->ranges,
-                               .way = way};
+                               .displacement = displacement};
+    if (contact->n_removed == contact->boundary->n_patches) {
+        return true;
+    }
     mor_skin_measure(context, &own);
     return mor_skin_holds(context, soil, &own, support, reach) &&
-           mor_wall_blocks_hold(context, contact, soil, way, support, reach);
+           mor_wall_blocks_hold(context, contact, soil, displacement, support, reach);
 }
 
 /* The patch of a point. */

@@ -218,11 +218,11 @@ double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact);
 
 /** Returns whether no point that was not listed has come within the support of the soil.
  *  @param soil    [in]      measured
- *  @param way     [in]      that mor_soil_contact_drift gives now, unit m
+ *  @param displacement [in] that mor_soil_contact_drift gives now, unit m
  *  @param support [in]      of the kernel, unit m
  *  @param reach   [in]      of the lists, unit m */
 bool mor_soil_contact_lists_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil,
-                                 double way, double support, double reach);
+                                 double displacement, double support, double reach);
 
 /** Returns the largest speed of a point, unit m/s. */
 double mor_soil_contact_speed(const mor_soil_contact *contact);

@@ -396,8 +396,8 @@ double mor_wall_blocks_drift(const mor_soil_contact *contact)
     return farthest;
 }
 
-bool mor_wall_blocks_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil, double way,
-                          double support, double reach)
+bool mor_wall_blocks_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil,
+                          double displacement, double support, double reach)
 {
     const mor_wall_blocks *it = contact->blocks;
     mor_pose pose;
@@ -409,7 +409,7 @@ bool mor_wall_blocks_hold(mor_context *context, const mor_soil_contact *contact,
     for (int64_t b = 0; b < it->n_blocks && do_hold; ++b) {
         double box[6];
         const mor_tree tree = {.n_points = 1, .n_clusters = 1, .boxes = box};
-        const mor_skin_side block = {.tree = &tree, .way = way};
+        const mor_skin_side block = {.tree = &tree, .displacement = displacement};
         pose_box(&pose, it->blocks[b].box, box);
         do_hold = it->blocks[b].is_filled || mor_skin_holds(context, soil, &block, support, reach);
     }

@@ -65,11 +65,11 @@ double mor_wall_blocks_drift(const mor_soil_contact *contact);
 /** Returns whether no block that is not filled has come within the support of the soil since the lists were built.
  *  @param contact [in]  also one without blocks
  *  @param soil    [in]  measured
- *  @param way     [in]  longest displacement of the wall since, unit m
+ *  @param displacement [in]  longest one of the wall since, unit m
  *  @param support [in]  of the kernel, unit m
  *  @param reach   [in]  of the lists, unit m */
-bool mor_wall_blocks_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil, double way,
-                          double support, double reach);
+bool mor_wall_blocks_hold(mor_context *context, const mor_soil_contact *contact, const mor_skin_side *soil,
+                          double displacement, double support, double reach);
 
 /** Finds the box of all particles of a wall that does not rotate, filled or not.
  *  @param contact [in]   with blocks

@@ -342,6 +342,26 @@ static void nothing_is_seen_of_an_empty_set_or_beyond_reach(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
+static void short_lists_that_were_shortened_are_whole_again(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    cloud c;
+    cloud_open_kind(&context, &c, CLOUD_RANDOM, 200);
+    mor_relation relation = open_relation(&context, &c);
+    build(&context, &relation, &c, &c, 0.3);
+    for (int64_t cluster = 0; cluster < relation.n_clusters; cluster += 2) {
+        mor_relation_near(&relation, cluster)[0] = -1;
+        relation.near_counts[cluster] = 1;
+    }
+    mor_relation_restore_near(&relation, 0, relation.n_clusters);
+    assert_complete(&relation, &c, &c);
+    mor_relation_clear(&context, &relation);
+    cloud_close(&c);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
 static void relation_made_for_another_set_is_refused(void **state)
 {
     (void)state;
@@ -373,6 +393,7 @@ int main(void)
         cmocka_unit_test(contact_lists_hold_what_brute_force_finds),
         cmocka_unit_test(lists_are_whole_however_many_clusters_are_in_reach),
         cmocka_unit_test(nothing_is_seen_of_an_empty_set_or_beyond_reach),
+        cmocka_unit_test(short_lists_that_were_shortened_are_whole_again),
         cmocka_unit_test(relation_made_for_another_set_is_refused),
     };
     return CLOUD_RUN(tests);

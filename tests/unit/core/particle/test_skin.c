@@ -77,10 +77,53 @@ static bool some_are_missed(const travelers *source, const travelers *target)
     return is_missed;
 }
 
+static void box_of(const double *records, int stride, int64_t first, int64_t last, double *box)
+{
+    for (int a = 0; a < 3; ++a) {
+        box[a] = INFINITY;
+        box[3 + a] = -INFINITY;
+        for (int64_t i = first; i < last; ++i) {
+            box[a] = fmin(box[a], records[i * stride + a]);
+            box[3 + a] = fmax(box[3 + a], records[i * stride + a]);
+        }
+    }
+}
+
+static double gap_of(const double *p, const double *q)
+{
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double gap = fmax(0.0, fmax(p[a] - q[3 + a], q[a] - p[3 + a]));
+        sum += gap * gap;
+    }
+    return sqrt(sum);
+}
+
+/* Likewise of boxes of clusters. */
+static bool some_boxes_are_missed(const travelers *t)
+{
+    bool is_missed = false;
+    const int64_t n = t->c.n_points;
+    for (int64_t i = 0; i < n; i += MOR_CLUSTER) {
+        for (int64_t j = 0; j < n; j += MOR_CLUSTER) {
+            const int64_t ends[2] = {i + MOR_CLUSTER < n ? i + MOR_CLUSTER : n,
+                                     j + MOR_CLUSTER < n ? j + MOR_CLUSTER : n};
+            double now[2][6];
+            double built[2][6];
+            box_of(t->now, CLOUD_STRIDE, i, ends[0], now[0]);
+            box_of(t->now, CLOUD_STRIDE, j, ends[1], now[1]);
+            box_of(t->built, 3, i, ends[0], built[0]);
+            box_of(t->built, 3, j, ends[1], built[1]);
+            is_missed = is_missed || (gap_of(now[0], now[1]) <= SUPPORT && gap_of(built[0], built[1]) > REACH);
+        }
+    }
+    return is_missed;
+}
+
 static const int sizes[] = {1, 8, 9, 63, 200, 360};
 enum { SIZES = sizeof sizes / sizeof *sizes };
 
-static void lists_hold_exactly_when_nobody_is_missed(void **state)
+static void lists_hold_exactly_when_they_are_complete(void **state)
 {
     (void)state;
     mor_context context;
@@ -106,7 +149,7 @@ static void lists_hold_exactly_when_nobody_is_missed(void **state)
 }
 
 /* A wall that stands, one that moves without ranges, and rocks. */
-static void lists_of_others_hold_exactly_when_nobody_is_missed(void **state)
+static void lists_of_boundaries_hold_exactly_when_they_are_complete(void **state)
 {
     (void)state;
     mor_context context;
@@ -125,7 +168,7 @@ static void lists_of_others_hold_exactly_when_nobody_is_missed(void **state)
                        target_kind == 0 ? 0.0 : 0.05);
         other.side.built = target_kind == 0 ? NULL : other.built;
         other.side.ranges = target_kind == 2 ? other.ranges : NULL;
-        other.side.way = target_kind == 0 ? 0.0 : 0.1;
+        other.side.displacement = target_kind == 0 ? 0.0 : 0.1;
         const bool is_missed = some_are_missed(&soil, &other);
         assert_int_equal(mor_skin_holds(&context, &soil.side, &other.side, SUPPORT, REACH), !is_missed);
         n_held += !is_missed;
@@ -137,8 +180,8 @@ static void lists_of_others_hold_exactly_when_nobody_is_missed(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
-/* A part of a wall whose points nobody has: what bounds do not tell counts as seen, and what they tell is right. */
-static void box_is_missed_before_any_point_of_it_is_seen(void **state)
+/* A part of a wall whose points nobody has: what bounds do not exclude counts as a neighbor. */
+static void lists_do_not_hold_once_a_box_without_points_may_be_in_reach(void **state)
 {
     (void)state;
     mor_context context;
@@ -147,7 +190,7 @@ static void box_is_missed_before_any_point_of_it_is_seen(void **state)
     for (int step = 0; step < 60; ++step) {
         double box[6] = {1.3, 0.0, 0.0, 1.6, 1.0, 1.0}; /* beyond the reach at the start */
         const mor_tree tree = {.n_points = 1, .n_clusters = 1, .boxes = box};
-        const mor_skin_side wall = {.tree = &tree, .way = 0.001 * step};
+        const mor_skin_side wall = {.tree = &tree, .displacement = 0.001 * step};
         travelers soil;
         open_travelers(&context, &soil, CLOUD_RANDOM, 200, WAY_SHEAR, 0.005 * step);
         const bool holds = mor_skin_holds(&context, &soil.side, &wall, SUPPORT, REACH);
@@ -155,7 +198,7 @@ static void box_is_missed_before_any_point_of_it_is_seen(void **state)
         for (int64_t i = 0; i < soil.c.n_points; ++i) {
             nearest = fmin(nearest, box[0] - soil.now[CLOUD_STRIDE * i]);
         }
-        assert_true(!holds || nearest - wall.way >= SUPPORT);
+        assert_true(!holds || nearest - wall.displacement >= SUPPORT);
         n_held += holds;
         cloud_close(&soil.c);
     }
@@ -166,6 +209,7 @@ static void box_is_missed_before_any_point_of_it_is_seen(void **state)
 static void answer_does_not_depend_on_the_number_of_threads(void **state)
 {
     (void)state;
+    int n_held = 0;
     for (int option = 0; option < 12; ++option) {
         bool holds[3];
         for (int k = 0; k < 3; ++k) {
@@ -173,15 +217,69 @@ static void answer_does_not_depend_on_the_number_of_threads(void **state)
             mor_context_init(&context);
             context.n_threads = 1 + 2 * k;
             travelers t;
-            open_travelers(&context, &t, CLOUD_RANDOM, 360, WAY_SHEAR, 0.01 * option);
+            open_travelers(&context, &t, CLOUD_RANDOM, 360, WAY_SHEAR, 0.05 * option);
             holds[k] = mor_skin_holds(&context, &t.side, &t.side, SUPPORT, REACH);
             cloud_close(&t.c);
         }
         assert_true(holds[0] == holds[1] && holds[1] == holds[2]);
+        n_held += holds[0];
+    }
+    assert_true(n_held > 0 && n_held < 12);
+}
+
+/* Half of the points go one way and half the other, so that no bound excludes anything, and none comes near another. */
+static void check_that_costs_more_than_new_lists_is_given_up(void **state)
+{
+    enum { MANY = 4000 };
+    static double built[3 * MANY];
+    static double now[3 * MANY];
+    static double ranges[6 * (2 * MANY / MOR_CLUSTER)];
+    (void)state;
+    for (int n = MANY / 100; n <= MANY; n *= 10) {
+        mor_context context;
+        mor_tree tree;
+        mor_context_init(&context);
+        assert_int_equal(mor_tree_init(&context, &tree, n), MOR_OK);
+        for (int i = 0; i < n; ++i) {
+            built[3 * i] = 2.0 * REACH * i;
+            now[3 * i] = built[3 * i] + (i % 2 == 0 ? 10.0 : -10.0) * REACH * n;
+        }
+        mor_tree_fit(&tree, built, 3);
+        const mor_skin_side side = {.tree = &tree, .records = now, .stride = 3, .built = built, .ranges = ranges};
+        mor_skin_measure(&context, &side);
+        assert_int_equal(mor_skin_holds(&context, &side, &side, SUPPORT, REACH), n < MANY);
+        mor_tree_clear(&context, &tree);
+        assert_int_equal(context.memory_bytes, 0);
     }
 }
 
-static void nobody_is_missed_in_empty_sets(void **state)
+/* Boxes of clusters that come near one another, though their points do not. */
+static void boxes_are_compared_where_they_are_asked_for(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    int n_held[2] = {0, 0};
+    for (int option = 0; option < CLOUD_KINDS * WAYS * 6; ++option) {
+        const way how = (way)(option / CLOUD_KINDS % WAYS);
+        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / WAYS);
+        travelers t;
+        open_travelers(&context, &t, (cloud_kind)(option % CLOUD_KINDS), 200, how, size);
+        bool holds[2];
+        for (int k = 0; k < 2; ++k) {
+            t.side.asks_boxes = k == 1;
+            holds[k] = mor_skin_holds(&context, &t.side, &t.side, SUPPORT, REACH);
+            n_held[k] += holds[k];
+        }
+        assert_true(holds[0] || !holds[1]);
+        assert_int_equal(holds[1], holds[0] && !some_boxes_are_missed(&t));
+        cloud_close(&t.c);
+    }
+    assert_true(n_held[1] > 20 && n_held[1] < n_held[0]);
+    assert_int_equal(context.memory_bytes, 0);
+}
+
+static void lists_of_empty_sets_are_complete(void **state)
 {
     (void)state;
     mor_context context;
@@ -201,11 +299,13 @@ static void nobody_is_missed_in_empty_sets(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lists_hold_exactly_when_nobody_is_missed),
-        cmocka_unit_test(lists_of_others_hold_exactly_when_nobody_is_missed),
-        cmocka_unit_test(box_is_missed_before_any_point_of_it_is_seen),
+        cmocka_unit_test(lists_hold_exactly_when_they_are_complete),
+        cmocka_unit_test(lists_of_boundaries_hold_exactly_when_they_are_complete),
+        cmocka_unit_test(lists_do_not_hold_once_a_box_without_points_may_be_in_reach),
         cmocka_unit_test(answer_does_not_depend_on_the_number_of_threads),
-        cmocka_unit_test(nobody_is_missed_in_empty_sets),
+        cmocka_unit_test(check_that_costs_more_than_new_lists_is_given_up),
+        cmocka_unit_test(boxes_are_compared_where_they_are_asked_for),
+        cmocka_unit_test(lists_of_empty_sets_are_complete),
     };
     return CLOUD_RUN(tests);
 }
