@@ -134,16 +134,6 @@ static const double *range_of(const mor_skin_side *side, int64_t index, double *
     return side->ranges != NULL ? side->ranges + 6 * index : alike;
 }
 
-static double gap2_of(const double *box, const double *other)
-{
-    double gap2 = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double gap = mor_max(0.0, mor_max(other[a] - box[3 + a], box[a] - other[3 + a]));
-        gap2 += gap * gap;
-    }
-    return gap2;
-}
-
 /* Whether displacements cannot have brought points that were not listed within the support. */
 static bool is_sure(const check *it, const node_pair *pair)
 {
@@ -157,7 +147,7 @@ static bool is_sure(const check *it, const node_pair *pair)
         const double relative = mor_max(range[3 + a] - against[a], against[3 + a] - range[a]);
         relative2 += relative * relative;
     }
-    const double room = mor_max(sqrt(gap2_of(box, other)), it->reach) - it->support;
+    const double room = mor_max(sqrt(mor_tree_box_gap2(box, other)), it->reach) - it->support;
     return relative2 <= room * room;
 }
 
@@ -199,9 +189,9 @@ static bool boxes_hold(const check *it, const node_pair *pair)
     double other[6];
     find_box(it->source, pair->source.begin, box);
     find_box(it->target, pair->target.begin, other);
-    return gap2_of(box, other) > it->support * it->support ||
-           gap2_of(it->source->tree->boxes + 6 * pair->source.index,
-                   it->target->tree->boxes + 6 * pair->target.index) <= it->reach * it->reach;
+    return mor_tree_box_gap2(box, other) > it->support * it->support ||
+           mor_tree_box_gap2(it->source->tree->boxes + 6 * pair->source.index,
+                             it->target->tree->boxes + 6 * pair->target.index) <= it->reach * it->reach;
 }
 
 /* Compares the points of two clusters. */

@@ -4,6 +4,7 @@
 #define MOR_CORE_PARTICLE_TREE_H
 
 #include "core/base/context.h"
+#include "core/base/math.h"
 
 #include <stdint.h>
 
@@ -77,6 +78,19 @@ int64_t mor_tree_block_end(int64_t n_clusters, int64_t block_clusters, int64_t b
  *  @param points [in]      shape [n_points, stride]; unit m
  *  @param stride [in]      doubles per record, >= 3 */
 void mor_tree_fit(mor_tree *tree, const double *points, int stride);
+
+/** Squared distance of two boxes, zero where they meet, m2.
+ *  @param box   [in]  shape [6]; minimum and maximum corner, unit m
+ *  @param other [in]  shape [6]; likewise, unit m */
+static inline double mor_tree_box_gap2(const double *box, const double *other)
+{
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double gap = mor_max(0.0, mor_max(other[a] - box[3 + a], box[a] - other[3 + a]));
+        sum += gap * gap;
+    }
+    return sum;
+}
 
 /** Number of clusters in the left child of a node with n_clusters >= 2 clusters, 1. */
 static inline int64_t mor_tree_left(int64_t n_clusters)

@@ -26,7 +26,11 @@ _Static_assert((int)MOR_MATERIAL_STATE_KEY_BYTES == (int)MOR_FIELD_NAME_BYTES &&
 /* Everything goes into log.txt, and to the sink that was there before. */
 static void log_line(void *user, mor_log_level level, const char *text)
 {
-    static const char *const names[] = {"debug", "info", "warning", "error"};
+    static const char *const names[] = {[MOR_LOG_DEBUG] = "debug",
+                                        [MOR_LOG_INFO] = "info",
+                                        [MOR_LOG_PROGRESS] = "progress",
+                                        [MOR_LOG_WARNING] = "warning",
+                                        [MOR_LOG_ERROR] = "error"};
     mor_run_files *files = user;
     fprintf(files->log, "%s: %s\n", names[level], text);
     fflush(files->log);

@@ -67,17 +67,6 @@ static void pose_box(const mor_pose *pose, const double *box, double *posed)
     }
 }
 
-/* Squared distance of two boxes. */
-static double find_gap2(const double *p, const double *q)
-{
-    double sum = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double gap = fmax(0.0, fmax(p[a] - q[3 + a], q[a] - p[3 + a]));
-        sum += gap * gap;
-    }
-    return sum;
-}
-
 /* Whether a cluster of the soil is within a distance of a box. */
 static bool is_near(const mor_tree *soil, const double *box, double distance)
 {
@@ -93,7 +82,7 @@ static bool is_near(const mor_tree *soil, const double *box, double distance)
         --depth;
         const int64_t node = stack[depth].node;
         const int64_t n = stack[depth].n_clusters;
-        if (!(find_gap2(soil->boxes + 6 * node, box) <= distance * distance)) {
+        if (!(mor_tree_box_gap2(soil->boxes + 6 * node, box) <= distance * distance)) {
             continue;
         }
         if (n == 1) {
@@ -441,7 +430,7 @@ mor_status mor_wall_blocks_check(mor_context *context, const mor_soil_contact *c
         for (int64_t i = 0; i < soil->tree->n_points; ++i) {
             const double *x = soil->records + i * soil->stride;
             const double point[6] = {x[0], x[1], x[2], x[0], x[1], x[2]};
-            MOR_CHECK(context, !(find_gap2(point, box) < support * support), MOR_ERROR_INTERNAL,
+            MOR_CHECK(context, !(mor_tree_box_gap2(point, box) < support * support), MOR_ERROR_INTERNAL,
                       "soil at (%g, %g, %g) m is in reach of a part of wall '%s' that holds no particles, at t = %.6g "
                       "s; this is an error of the program: please report it",
                       x[0], x[1], x[2], contact->name, time);
