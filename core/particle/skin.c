@@ -16,15 +16,19 @@ enum { GRAIN = 128, TASKS = 256, STACK = 256, LEAVES = 64 };
 
 /* ---- Displacements ----------------------------------------------------------------------------------------------- */
 
+static int64_t points_end(const mor_skin_side *side, int64_t cluster)
+{
+    const int64_t end = (cluster + 1) * MOR_CLUSTER;
+    return end < side->tree->n_points ? end : side->tree->n_points;
+}
+
 static void measure_cluster(const mor_skin_side *side, int64_t cluster, double *range)
 {
-    const int64_t begin = cluster * MOR_CLUSTER;
-    const int64_t end = begin + MOR_CLUSTER < side->tree->n_points ? begin + MOR_CLUSTER : side->tree->n_points;
     for (int a = 0; a < 3; ++a) {
         range[a] = INFINITY;
         range[3 + a] = -INFINITY;
     }
-    for (int64_t i = begin; i < end; ++i) {
+    for (int64_t i = cluster * MOR_CLUSTER; i < points_end(side, cluster); ++i) {
         for (int a = 0; a < 3; ++a) {
             const double moved = side->records[i * side->stride + a] - side->built[3 * i + a];
             range[a] = mor_min(range[a], moved);
@@ -162,33 +166,13 @@ static const double *built_of(const mor_skin_side *side, int64_t i)
     return side->built != NULL ? side->built + 3 * i : side->records + i * side->stride;
 }
 
-static int64_t points_end(const mor_skin_side *side, int64_t cluster)
-{
-    const int64_t end = (cluster + 1) * MOR_CLUSTER;
-    return end < side->tree->n_points ? end : side->tree->n_points;
-}
-
-static void find_box(const mor_skin_side *side, int64_t cluster, double *box)
-{
-    for (int a = 0; a < 3; ++a) {
-        box[a] = INFINITY;
-        box[3 + a] = -INFINITY;
-    }
-    for (int64_t i = cluster * MOR_CLUSTER; i < points_end(side, cluster); ++i) {
-        for (int a = 0; a < 3; ++a) {
-            box[a] = mor_min(box[a], side->records[i * side->stride + a]);
-            box[3 + a] = mor_max(box[3 + a], side->records[i * side->stride + a]);
-        }
-    }
-}
-
 /* Compares the boxes of two clusters. */
 static bool boxes_hold(const check *it, const node_pair *pair)
 {
     double box[6];
     double other[6];
-    find_box(it->source, pair->source.begin, box);
-    find_box(it->target, pair->target.begin, other);
+    mor_tree_bound_cluster(it->source->tree, it->source->records, it->source->stride, pair->source.begin, box);
+    mor_tree_bound_cluster(it->target->tree, it->target->records, it->target->stride, pair->target.begin, other);
     return mor_tree_box_gap2(box, other) > it->support * it->support ||
            mor_tree_box_gap2(it->source->tree->boxes + 6 * pair->source.index,
                              it->target->tree->boxes + 6 * pair->target.index) <= it->reach * it->reach;

@@ -182,7 +182,7 @@ int64_t mor_tree_block_end(int64_t n_clusters, int64_t block_clusters, int64_t b
     return end;
 }
 
-static void fit_cluster(const mor_tree *tree, const double *points, int stride, int64_t cluster, double *box)
+void mor_tree_bound_cluster(const mor_tree *tree, const double *points, int stride, int64_t cluster, double *box)
 {
     const int64_t begin = cluster * MOR_CLUSTER;
     const int64_t end = begin + MOR_CLUSTER < tree->n_points ? begin + MOR_CLUSTER : tree->n_points;
@@ -212,7 +212,7 @@ static void fit_node(mor_tree *tree, const double *points, int stride, int64_t n
 {
     double *box = tree->boxes + 6 * node;
     if (end - begin == 1) {
-        fit_cluster(tree, points, stride, begin, box);
+        mor_tree_bound_cluster(tree, points, stride, begin, box);
         return;
     }
     const int64_t left = mor_tree_left(end - begin);

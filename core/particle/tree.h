@@ -79,6 +79,13 @@ int64_t mor_tree_block_end(int64_t n_clusters, int64_t block_clusters, int64_t b
  *  @param stride [in]      doubles per record, >= 3 */
 void mor_tree_fit(mor_tree *tree, const double *points, int stride);
 
+/** Finds the box of the points of a cluster.
+ *  @param points  [in]   shape [n_points, stride]; unit m
+ *  @param stride  [in]   doubles per record, >= 3
+ *  @param cluster [in]   0 to n_clusters - 1
+ *  @param box     [out]  shape [6]; minimum and maximum corner, unit m */
+void mor_tree_bound_cluster(const mor_tree *tree, const double *points, int stride, int64_t cluster, double *box);
+
 /** Squared distance of two boxes, zero where they meet, m2.
  *  @param box   [in]  shape [6]; minimum and maximum corner, unit m
  *  @param other [in]  shape [6]; likewise, unit m */

@@ -9,45 +9,45 @@
 #define REACH 0.25
 
 /* Points of a cloud, as lists were built, and later. */
-typedef struct travelers {
+typedef struct moved_cloud {
     cloud c;
     double now[CLOUD_MAX * CLOUD_STRIDE];
     double built[3 * CLOUD_MAX];
     double ranges[6 * (2 * CLOUD_MAX / MOR_CLUSTER + 3)];
     mor_skin_side side;
-} travelers;
+} moved_cloud;
 
-typedef enum way {
-    WAY_TOGETHER, /* far, all alike */
-    WAY_RANDOM,   /* each by itself */
-    WAY_SHEAR,    /* along x in proportion to y */
-    WAY_HALVES,   /* what lies right of the middle to the left */
-    WAYS
-} way;
+typedef enum motion {
+    MOTION_TOGETHER, /* far, all alike */
+    MOTION_RANDOM,   /* each by itself */
+    MOTION_SHEAR,    /* along x in proportion to y */
+    MOTION_HALVES,   /* what lies right of the middle to the left */
+    MOTIONS
+} motion;
 
-static void find_way(way kind, int i, const double *from, double size, double *moved)
+static void find_motion(motion kind, int i, const double *from, double size, double *moved)
 {
     moved[0] = moved[1] = moved[2] = 0.0;
-    if (kind == WAY_TOGETHER) {
+    if (kind == MOTION_TOGETHER) {
         moved[0] = 5.0, moved[1] = -3.0, moved[2] = 2.0;
     }
-    for (int a = 0; a < 3 && kind == WAY_RANDOM; ++a) {
+    for (int a = 0; a < 3 && kind == MOTION_RANDOM; ++a) {
         moved[a] = size * cloud_number((uint64_t)i, 500 + (uint64_t)a, -1.0, 1.0);
     }
-    if (kind == WAY_SHEAR) {
+    if (kind == MOTION_SHEAR) {
         moved[0] = 2.0 * size * (from[1] - floor(from[1]));
     }
-    if (kind == WAY_HALVES && from[0] - floor(from[0]) > 0.5) {
+    if (kind == MOTION_HALVES && from[0] - floor(from[0]) > 0.5) {
         moved[0] = -size;
     }
 }
 
-static void open_travelers(mor_context *context, travelers *t, cloud_kind points, int n, way how, double size)
+static void open_moved_cloud(mor_context *context, moved_cloud *t, cloud_kind points, int n, motion how, double size)
 {
     cloud_open_kind(context, &t->c, points, n);
     for (int i = 0; i < n; ++i) {
         double moved[3];
-        find_way(how, i, t->c.records + CLOUD_STRIDE * i, size, moved);
+        find_motion(how, i, t->c.records + CLOUD_STRIDE * i, size, moved);
         for (int a = 0; a < 3; ++a) {
             t->built[3 * i + a] = t->c.records[CLOUD_STRIDE * i + a];
             t->now[CLOUD_STRIDE * i + a] = t->built[3 * i + a] + moved[a];
@@ -65,7 +65,7 @@ static double apart(const double *p, const double *q)
 }
 
 /* Whether some two see one another now that no list holds, by brute force. */
-static bool some_are_missed(const travelers *source, const travelers *target)
+static bool some_are_missed(const moved_cloud *source, const moved_cloud *target)
 {
     bool is_missed = false;
     for (int64_t i = 0; i < source->c.n_points; ++i) {
@@ -100,7 +100,7 @@ static double gap_of(const double *p, const double *q)
 }
 
 /* Likewise of boxes of clusters. */
-static bool some_boxes_are_missed(const travelers *t)
+static bool some_boxes_are_missed(const moved_cloud *t)
 {
     bool is_missed = false;
     const int64_t n = t->c.n_points;
@@ -130,17 +130,17 @@ static void lists_hold_exactly_when_they_are_complete(void **state)
     mor_context_init(&context);
     int n_held = 0;
     int n_missed = 0;
-    for (int option = 0; option < CLOUD_KINDS * SIZES * WAYS * 6; ++option) {
+    for (int option = 0; option < CLOUD_KINDS * SIZES * MOTIONS * 6; ++option) {
         const cloud_kind kind = (cloud_kind)(option % CLOUD_KINDS);
         const int n = sizes[option / CLOUD_KINDS % SIZES];
-        const way how = (way)(option / CLOUD_KINDS / SIZES % WAYS);
-        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / SIZES / WAYS);
-        travelers t;
-        open_travelers(&context, &t, kind, n, how, size);
+        const motion how = (motion)(option / CLOUD_KINDS / SIZES % MOTIONS);
+        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / SIZES / MOTIONS);
+        moved_cloud t;
+        open_moved_cloud(&context, &t, kind, n, how, size);
         const bool is_missed = some_are_missed(&t, &t);
         assert_int_equal(mor_skin_holds(&context, &t.side, &t.side, SUPPORT, REACH), !is_missed);
-        assert_true(how != WAY_TOGETHER || !is_missed);
-        n_held += how != WAY_TOGETHER && !is_missed;
+        assert_true(how != MOTION_TOGETHER || !is_missed);
+        n_held += how != MOTION_TOGETHER && !is_missed;
         n_missed += is_missed;
         cloud_close(&t.c);
     }
@@ -156,16 +156,16 @@ static void lists_of_boundaries_hold_exactly_when_they_are_complete(void **state
     mor_context_init(&context);
     int n_held = 0;
     int n_missed = 0;
-    for (int option = 0; option < CLOUD_KINDS * WAYS * 6 * 3; ++option) {
+    for (int option = 0; option < CLOUD_KINDS * MOTIONS * 6 * 3; ++option) {
         const cloud_kind kind = (cloud_kind)(option % CLOUD_KINDS);
-        const way how = (way)(option / CLOUD_KINDS % WAYS);
-        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / WAYS % 6);
-        const int target_kind = option / CLOUD_KINDS / WAYS / 6;
-        travelers soil;
-        travelers other;
-        open_travelers(&context, &soil, kind, 200, how, size);
-        open_travelers(&context, &other, kind, 120, target_kind == 0 ? WAY_RANDOM : WAY_SHEAR,
-                       target_kind == 0 ? 0.0 : 0.05);
+        const motion how = (motion)(option / CLOUD_KINDS % MOTIONS);
+        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / MOTIONS % 6);
+        const int target_kind = option / CLOUD_KINDS / MOTIONS / 6;
+        moved_cloud soil;
+        moved_cloud other;
+        open_moved_cloud(&context, &soil, kind, 200, how, size);
+        open_moved_cloud(&context, &other, kind, 120, target_kind == 0 ? MOTION_RANDOM : MOTION_SHEAR,
+                         target_kind == 0 ? 0.0 : 0.05);
         other.side.built = target_kind == 0 ? NULL : other.built;
         other.side.ranges = target_kind == 2 ? other.ranges : NULL;
         other.side.displacement = target_kind == 0 ? 0.0 : 0.1;
@@ -191,8 +191,8 @@ static void lists_do_not_hold_once_a_box_without_points_may_be_in_reach(void **s
         double box[6] = {1.3, 0.0, 0.0, 1.6, 1.0, 1.0}; /* beyond the reach at the start */
         const mor_tree tree = {.n_points = 1, .n_clusters = 1, .boxes = box};
         const mor_skin_side wall = {.tree = &tree, .displacement = 0.001 * step};
-        travelers soil;
-        open_travelers(&context, &soil, CLOUD_RANDOM, 200, WAY_SHEAR, 0.005 * step);
+        moved_cloud soil;
+        open_moved_cloud(&context, &soil, CLOUD_RANDOM, 200, MOTION_SHEAR, 0.005 * step);
         const bool holds = mor_skin_holds(&context, &soil.side, &wall, SUPPORT, REACH);
         double nearest = INFINITY;
         for (int64_t i = 0; i < soil.c.n_points; ++i) {
@@ -216,8 +216,8 @@ static void answer_does_not_depend_on_the_number_of_threads(void **state)
             mor_context context;
             mor_context_init(&context);
             context.n_threads = 1 + 2 * k;
-            travelers t;
-            open_travelers(&context, &t, CLOUD_RANDOM, 360, WAY_SHEAR, 0.05 * option);
+            moved_cloud t;
+            open_moved_cloud(&context, &t, CLOUD_RANDOM, 360, MOTION_SHEAR, 0.05 * option);
             holds[k] = mor_skin_holds(&context, &t.side, &t.side, SUPPORT, REACH);
             cloud_close(&t.c);
         }
@@ -260,11 +260,11 @@ static void boxes_are_compared_where_they_are_asked_for(void **state)
     mor_context context;
     mor_context_init(&context);
     int n_held[2] = {0, 0};
-    for (int option = 0; option < CLOUD_KINDS * WAYS * 6; ++option) {
-        const way how = (way)(option / CLOUD_KINDS % WAYS);
-        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / WAYS);
-        travelers t;
-        open_travelers(&context, &t, (cloud_kind)(option % CLOUD_KINDS), 200, how, size);
+    for (int option = 0; option < CLOUD_KINDS * MOTIONS * 6; ++option) {
+        const motion how = (motion)(option / CLOUD_KINDS % MOTIONS);
+        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / MOTIONS);
+        moved_cloud t;
+        open_moved_cloud(&context, &t, (cloud_kind)(option % CLOUD_KINDS), 200, how, size);
         bool holds[2];
         for (int k = 0; k < 2; ++k) {
             t.side.asks_boxes = k == 1;
@@ -284,10 +284,10 @@ static void lists_of_empty_sets_are_complete(void **state)
     (void)state;
     mor_context context;
     mor_context_init(&context);
-    travelers none;
-    travelers some;
-    open_travelers(&context, &none, CLOUD_RANDOM, 0, WAY_RANDOM, 0.1);
-    open_travelers(&context, &some, CLOUD_RANDOM, 9, WAY_RANDOM, 0.1);
+    moved_cloud none;
+    moved_cloud some;
+    open_moved_cloud(&context, &none, CLOUD_RANDOM, 0, MOTION_RANDOM, 0.1);
+    open_moved_cloud(&context, &some, CLOUD_RANDOM, 9, MOTION_RANDOM, 0.1);
     assert_true(mor_skin_holds(&context, &none.side, &some.side, SUPPORT, REACH));
     assert_true(mor_skin_holds(&context, &some.side, &none.side, SUPPORT, REACH));
     assert_true(mor_skin_holds(&context, &none.side, &none.side, SUPPORT, REACH));
