@@ -49,8 +49,8 @@ static double least_thickness(const mor_relax_frame *frame)
     return frame->around == NULL ? THICKNESS_LEAST : THICKNESS_LEAST_AROUND;
 }
 
-/* MANY_TOLD: particles from which on people wait. STEPS_TOLD: steps from one report to the next, of few and of many. */
-enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041, MANY_TOLD = 100000, STEPS_TOLD_FEW = 100, STEPS_TOLD_MANY = 25 };
+/* STEPS_TOLD: steps from one report to the next, of few and of many. */
+enum { SINK_MOST = 4, PART_PURPOSE = 0x524C5041, STEPS_TOLD_FEW = 100, STEPS_TOLD_MANY = 25 };
 
 /* State of a relaxation. Positions in units of the spacing. */
 typedef struct relaxation {
@@ -436,7 +436,7 @@ static int free_trapped(relaxation *it, int round)
 
 static void tell_progress(mor_context *context, const relaxation *it, const mor_relax_points *points, double at_end)
 {
-    const bool is_many = it->n >= MANY_TOLD;
+    const bool is_many = it->n >= MOR_RELAX_MANY;
     if (points->n_steps % (is_many ? STEPS_TOLD_MANY : STEPS_TOLD_FEW) == 0) {
         mor_context_log(context, is_many ? MOR_LOG_PROGRESS : MOR_LOG_INFO,
                         "relaxation of %lld particles: %d steps, longest displacement %.2g spacings, %.2g at the end",

@@ -10,6 +10,9 @@
  *  pressure with the kernel integral over the outside added, until the spacing is uniform and the outer layer lies half
  *  a layer, 0.46 spacings, inside the surface. After Zhu et al. (2021); theory: docs/theory/relaxation.md. */
 
+/** Particles from which on relaxation takes minutes, and is reported to people who wait. */
+enum { MOR_RELAX_MANY = 100000 };
+
 /** What borders on a shape, where that is not empty space. All in the shape's frame; borrowed during the call. */
 typedef struct mor_relax_around {
     const mor_shape *const *adjoining; /* shape [n_adjoining]; filled together with the shape; bounded, none overlaps */

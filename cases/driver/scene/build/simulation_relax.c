@@ -23,9 +23,6 @@
 /* The step factor has fallen by then to a millionth: what still moves will not come to rest. */
 enum { STEPS_MOST = 2000 };
 
-/* Particles whose relaxation takes so long that people are told. */
-#define MANY 1e5
-
 /* Two particles closer to the common face of two regions than this may change places, spacings. */
 #define EXCHANGE 2.0
 
@@ -320,7 +317,7 @@ static mor_status relax_among(mor_context *context, const soil_relaxation *it, m
     for (int k = 0; k < it->n; ++k) {
         request.volume += (double)it->counts[k] * cell_volume(c);
     }
-    if (request.volume >= MANY * cell_volume(c)) {
+    if (request.volume >= MOR_RELAX_MANY * cell_volume(c)) {
         mor_context_log(context, MOR_LOG_PROGRESS,
                         "%.0f particles are relaxed; the first run of a case takes minutes for that, others read them",
                         request.volume / cell_volume(c));
