@@ -1,6 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Soil at rest that is left out of the steps: what flows must not notice, and nothing may get lost. */
+#include "core/particle/kernel.h"
 #include "core/sph/soil_internal.h"
 #include "tests/common/scene.h"
 
@@ -104,6 +105,45 @@ static void sleep_depends_neither_on_threads_nor_on_when_lists_were_built(void *
         assert_true(find_checksum(skins[k], 1, &other) == usual);
         assert_true(other == share);
     }
+}
+
+/* Whether blocks list all whose clusters come within the support of theirs, by boxes of this step. */
+static void assert_blocks_list_all_beside_them(const mor_soil *soil)
+{
+    const mor_sleep *sleep = &soil->sleep;
+    const double support = MOR_KERNEL_SUPPORT * soil->smoothing_length;
+    for (int64_t c = 0; c < soil->tree.n_clusters; ++c) {
+        for (int64_t d = 0; d < soil->tree.n_clusters; ++d) {
+            const int64_t block = c / MOR_SLEEP_CLUSTERS;
+            const int64_t other = d / MOR_SLEEP_CLUSTERS;
+            const double *boxes = sleep->cluster_boxes;
+            bool is_listed = block == other || mor_tree_box_gap2(boxes + 6 * c, boxes + 6 * d) > support * support;
+            for (int64_t k = sleep->first[block]; k < sleep->first[block + 1] && !is_listed; ++k) {
+                is_listed = sleep->neighbors[k] == other;
+            }
+            assert_true(is_listed);
+        }
+    }
+}
+
+/* What is read of soil that sleeps, and what decides that it sleeps, is whole however old lists are. */
+static void lists_of_soil_that_sleeps_are_complete(void **state)
+{
+    int64_t n_asleep = 0;
+    (void)state;
+    scene *it = open_bed(short_run, nothing, 1);
+    const mor_soil *soil = &it->simulation.soil;
+    for (int step = 0; step < 250; ++step) {
+        scene_step(it, 1);
+        assert_blocks_list_all_beside_them(soil);
+        for (int64_t cluster = 0; cluster < soil->tree.n_clusters; ++cluster) {
+            const bool sleeps = mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_ASLEEP);
+            assert_true(!sleeps || soil->inner.near_counts[cluster] == soil->inner.counts[cluster]);
+            n_asleep += sleeps;
+        }
+    }
+    assert_true(n_asleep > 0);
+    scene_free(it);
 }
 
 /* Hills whose blocks overlap without being on each other's lists of particles. */
@@ -286,6 +326,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flow_does_not_notice_that_soil_beside_it_sleeps),
         cmocka_unit_test(sleep_depends_neither_on_threads_nor_on_when_lists_were_built),
+        cmocka_unit_test(lists_of_soil_that_sleeps_are_complete),
         cmocka_unit_test(sleep_of_blocks_that_overlap_does_not_depend_on_lists_either),
         cmocka_unit_test(soil_wakes_before_a_tool_however_slow_it_is),
         cmocka_unit_test(soil_does_not_fall_asleep_in_the_air),
