@@ -69,7 +69,7 @@ static void sum_window(const double *weights, const profile *it, double *means)
         const double weight = it->dimension == 3 ? (b == 0 ? 1.0 : 2.0) * weights[HALF_POINTS + b] : 1.0;
         for (int a = 0; a < POINTS; ++a) {
             const double x = (a - HALF_POINTS) * step;
-            const double d = fmax(0.0, depth_at(it, x, y));
+            const double d = mor_max(depth_at(it, x, y), 0.0);
             const double w = weight * weights[a];
             means[0] += w * d;
             means[1] += w * d * d;
@@ -93,9 +93,9 @@ static void sum_narrow(const profile *it, double lowest, double radius, double *
             const double u = a / (NARROW_POINTS + 0.5);
             const double x = lowest + radius * u;
             const double y = radius * v;
-            const double d = fmax(0.0, 1.0 - u * u - v * v) * (b == 0 ? 1.0 : 2.0);
+            const double d = mor_max(1.0 - u * u - v * v, 0.0) * (b == 0 ? 1.0 : 2.0);
             const double w = exp(-0.5 * scale * scale * (x * x + y * y));
-            const double d2 = d * fmax(0.0, 1.0 - u * u - v * v);
+            const double d2 = d * mor_max(1.0 - u * u - v * v, 0.0);
             sums[0] += w * d;
             sums[1] += w * d2;
             sums[2] += w * d * x;

@@ -19,7 +19,7 @@ enum { BATCH = MOR_SOIL_BATCH, PARTS = MOR_SOIL_ENERGY_PARTS };
 /* Largest error of the line between two samples, over the energy converted so far and soon: in as many steps at the
  * present powers, so that the start of a run, when hardly any energy has been converted, is not sampled in each. */
 #define LARGEST_ERROR 1.0e-4
-#define SOON (8.0 * MOR_SOIL_ENERGY_INTERVAL)
+#define SOON 64.0
 
 mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
 {
@@ -201,8 +201,8 @@ static double find_error(const mor_soil_energy *energy, const double *now, doubl
 /* Most steps between samples: powers of few particles scatter from step to step, and samples of them cost little. */
 static int64_t find_longest(int64_t n_particles)
 {
-    enum { FEW = 4096, MANY = 32768 };
-    return n_particles < FEW ? 2 : n_particles < MANY ? MOR_SOIL_ENERGY_INTERVAL / 2 : MOR_SOIL_ENERGY_INTERVAL;
+    enum { FEW = 4096, MANY = 8192 };
+    return n_particles < FEW ? 2 : n_particles < MANY ? 4 : MOR_SOIL_ENERGY_INTERVAL;
 }
 
 /* The interval to the next sample: half, as long, or twice as long as the last one. */
@@ -281,7 +281,6 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *vi
         energy->span += step->length;
         return MOR_OK;
     }
-    /* The records are only read here. */
     mor_soil_powers job = {.soil = soil,
                            .step = step,
                            .records = soil->records,

@@ -16,7 +16,7 @@
  *  straight lines between the samples.
  *  Theory: docs/theory/energy.md, whose equations are cited as (E...). */
 
-enum { MOR_SOIL_ENERGY_INTERVAL = 8 /* most steps from one sample to the next; a power of two */ };
+enum { MOR_SOIL_ENERGY_INTERVAL = 16 /* most steps from one sample to the next; a power of two */ };
 
 /** What takes kinetic, potential and elastic energy from the soil; negative: adds energy. */
 typedef enum mor_soil_energy_part {

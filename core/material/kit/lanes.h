@@ -13,9 +13,9 @@
  *  give the same bits. */
 
 /** Particles per block; a multiple of the vector width of every instruction set below. */
-enum { MOR_LANES = 8 };
+enum { MOR_LANES = 16 };
 
 /** For functions called from a loop over lanes: they must vanish into it. */
-#define MOR_LANES_INLINE inline __attribute__((always_inline))
+#define MOR_LANES_INLINE MOR_ALWAYS_INLINE
 
 #endif

@@ -217,7 +217,7 @@ INLINE void add_stress(audit_part *part, const audit_chunk *it, const audit_form
     part->powers[MOR_PAIR_POWER_STRESS] = sum;
 }
 
-/* f^n (R_i + R_j) of (S7) where a pair is under tension; the power is taken lane by lane. */
+/* f^n (R_i + R_j) of (S7) where a pair is under tension. */
 INLINE void add_artificial(audit_part *part, const audit_chunk *it, const audit_form form)
 {
     const mor_pair_constants *c = it->job->constants;
@@ -239,12 +239,7 @@ INLINE void add_artificial(audit_part *part, const audit_chunk *it, const audit_
         pair p;
         separate(p.r, &part->frame, target_of(arrays, it->near[q]), form.dimension);
         const vec reach = positive_part(1.0 - it->found->distance[q] * part->frame.half_inverse_h);
-        const vec square = reach * reach;
-        const vec ratio = square * square * (4.0 * (1.0 - reach) + 1.0) * (c->kernel_normalization / c->spacing_kernel);
-        vec power = broadcast(0.0);
-        for (int lane = 0; lane < LANES; ++lane) {
-            power[lane] = ratio[lane] > 0.0 ? pow(ratio[lane], c->artificial_exponent) : 0.0;
-        }
+        const vec power = artificial_factor(reach, c);
         vec s[6];
         for (int a = 0; a < 6; ++a) {
             s[a] = (own[a] + other[a]) * power;

@@ -3,11 +3,14 @@
 #ifndef MOR_CORE_SPH_PAIR_PAIR_LANES_H
 #define MOR_CORE_SPH_PAIR_PAIR_LANES_H
 
+#include "core/base/exponential.h"
 #include "core/base/math.h"
 #include "core/sph/pair/lane_math.h"
 #include "core/sph/pair/pair.h"
 
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 /** @file
@@ -220,6 +223,29 @@ INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
     const vec *distance2 = &g->distance2[q];
 #endif
     return (geometry){with_square ? *distance2 : broadcast(0.0), g->distance[q], g->k[q]};
+}
+
+/** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, from
+ *  1 - q/2; 1. */
+INLINE vec artificial_factor(vec reach, const mor_pair_constants *c)
+{
+    const vec square = reach * reach;
+    const vec shape = square * square * (4.0 * (1.0 - reach) + 1.0);
+    const vec f = shape * (real)(c->kernel_normalization / c->spacing_kernel);
+    double power[LANES];
+    for (int lane = 0; lane < LANES; ++lane) {
+        power[lane] = f[lane];
+    }
+    for (int lane = 0; lane < LANES; ++lane) {
+        const bool sees = power[lane] > DBL_MIN;
+        const double some = mor_lane_exp(c->artificial_exponent * mor_lane_log(sees ? power[lane] : 1.0));
+        power[lane] = sees ? some : 0.0;
+    }
+    vec result;
+    for (int lane = 0; lane < LANES; ++lane) {
+        result[lane] = (real)power[lane];
+    }
+    return result;
 }
 
 /* What the loops read, in doubles or in singles. */

@@ -22,8 +22,8 @@ typedef struct momentum_form {
 
 /** What the momentum loop keeps of its own particles. */
 typedef struct momentum {
-    mask counts_closing, counts_opening; /* all bits where the dissipation acts on a pair that closes, opens */
-    vec v[3], impedance, pressure;       /* own state */
+    vec closing_sign, opening_sign; /* 1, -1 where the dissipation acts on a pair that closes, opens; else 0 */
+    vec v[3], impedance, pressure;  /* own state */
     vec minus_twice_impedance;
     vec strain_rate[6]; /* own, with reconstruction */
     vec limiter, soil;  /* own, with several soils */

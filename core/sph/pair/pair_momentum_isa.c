@@ -133,17 +133,12 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
     }
 }
 
-/* f^n (R_i + R_j) r, eq. 27. The power is taken lane by lane and only where the pair is under tension.
+/* f^n (R_i + R_j) r, eq. 27, of a pair under tension.
  *  own: shape [6], Pa */
 INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const vec *own,
                            const real *other, const int dimension)
 {
-    vec ratio = p->reach * p->reach;
-    ratio = ratio * ratio * (4.0 * (1.0 - p->reach) + 1.0) * (real)(c->kernel_normalization / c->spacing_kernel);
-    vec power;
-    for (int lane = 0; lane < LANES; ++lane) {
-        power[lane] = ratio[lane] > 0.0 ? (real)pow(ratio[lane], c->artificial_exponent) : (real)0.0;
-    }
+    const vec power = artificial_factor(p->reach, c);
     vec s[6];
     for (int a = 0; a < 6; ++a) {
         s[a] = (own[a] + other[a]) * power;
@@ -193,7 +188,7 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const
     const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
     /* Division is slow: all quotients share one. */
     const vec divisor = g->distance * impedance_sum;
-    const vec moves = select_lanes(magnitude(way) > LEAST_MOTION, way, broadcast(1.0));
+    const vec moves = larger(magnitude(way), broadcast(LEAST_MOTION));
     const vec inverse_of_all = 1.0 / (form.linear ? divisor * moves : divisor);
     const vec inverse = form.linear ? inverse_of_all * moves : inverse_of_all;
     const vec inverse_distance = inverse * impedance_sum;
@@ -204,13 +199,13 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const
         const vec smooth = smooth_closing(&p, m->strain_rate, strain_rate, form.dimension);
         const vec jump = limited_jump(way, multiply_add(smooth, broadcast(0.5), way));
         closing = jump * inverse_distance;
-        share = jump * (inverse_of_all * divisor);
+        share = magnitude(jump) * (inverse_of_all * divisor);
     }
     /* Closing speed on which the limiter acts, eq. 23. */
     const vec limiter_rate =
         form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast((real)c->limiter_rate);
     const vec slope = closing * limiter_rate;
-    const vec counted = larger((vec)((mask)slope & m->counts_closing), (vec)((mask)-slope & m->counts_opening));
+    const vec counted = larger(slope * m->closing_sign, slope * m->opening_sign);
     vec limited = smaller(counted, broadcast(1.0)) * closing;
     if (form.linear) {
         /* The force acts on all of the relative motion, and is to take of it what the solver takes of the jump. */
@@ -320,8 +315,8 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
     memset(&part->sums, 0, sizeof part->sums);
     part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
-    m->counts_closing -= c->dissipation != MOR_DISSIPATION_SEPARATION;
-    m->counts_opening -= c->dissipation != MOR_DISSIPATION_APPROACH;
+    m->closing_sign = broadcast(c->dissipation != MOR_DISSIPATION_SEPARATION ? 1.0 : 0.0);
+    m->opening_sign = broadcast(c->dissipation != MOR_DISSIPATION_APPROACH ? -1.0 : 0.0);
     vec motion[4];
     load_first(own + MOR_RECORD_VELOCITY, MOR_RECORD_SIZE, 4, motion);
     memcpy(m->v, motion, sizeof m->v);
