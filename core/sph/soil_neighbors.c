@@ -46,20 +46,6 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
     }
 }
 
-/* How many patches of boundaries clusters list. */
-static void find_clusters_at_walls(mor_soil *soil)
-{
-    memset(soil->at_wall, 0, (size_t)soil->tree.n_clusters);
-    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        const mor_soil_contact *contact = mor_soil_contact_at(soil, k);
-        for (int64_t place = 0; place < contact->relation.n_occupied; ++place) {
-            const int64_t cluster = contact->relation.occupied[place];
-            const int64_t n = soil->at_wall[cluster] + contact->first_slot[place + 1] - contact->first_slot[place];
-            soil->at_wall[cluster] = n < 2 ? (int8_t)n : 2;
-        }
-    }
-}
-
 mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil)
 {
     MOR_TRY(context, mor_tree_init(context, &soil->boundary_tree, soil->tree.n_points));
@@ -68,7 +54,6 @@ mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil)
     return mor_skin_places_init(context, &soil->boundary_places, &soil->boundary_tree, soil->ranges);
 }
 
-/* Lists of particles. */
 static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view, mor_relation_points *points)
 {
     const double *position = mor_view_read(view, MOR_FIELD_POSITION);
@@ -100,13 +85,14 @@ static mor_status build_boundary_lists(mor_context *context, mor_soil *soil, mor
     mor_tree_resize(&soil->boundary_tree, points->tree->n_points);
     mor_tree_fit(&soil->boundary_tree, points->records, points->stride);
     points->tree = &soil->boundary_tree;
+    memset(soil->at_wall, 0, (size_t)soil->tree.n_clusters);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
         MOR_TRY(context, mor_soil_contact_build(context, contact, points, reach));
         contact->relation.generation = soil->set.generation;
+        mor_soil_contact_count_patches(contact, soil->at_wall);
     }
-    find_clusters_at_walls(soil);
     mor_skin_places_keep(context, &soil->boundary_places, position);
     soil->has_boundary_lists = true;
     return MOR_OK;
@@ -129,7 +115,6 @@ static bool lists_hold(mor_context *context, const mor_soil *soil, const double 
     return mor_skin_holds(context, &own, &own, support, support + skin);
 }
 
-/* Likewise for particles and points of walls and rocks. */
 static bool boundary_lists_hold(mor_context *context, mor_soil *soil, const double *position, double support,
                                 double skin)
 {
@@ -150,6 +135,22 @@ static bool boundary_lists_hold(mor_context *context, mor_soil *soil, const doub
                                               support + skin);
     }
     return do_hold;
+}
+
+/* In the checked build: that a cluster, another in each step, lists all that is near. Not through periodic faces. */
+static mor_status check_lists(mor_context *context, mor_soil *soil, mor_relation_points own, const mor_step *step)
+{
+    const int64_t cluster = (int64_t)(step->number * 8191 % (uint64_t)soil->tree.n_clusters);
+    if (!context->is_checked || soil->period.is_any || mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD)) {
+        return MOR_OK;
+    }
+    const mor_relation_check check = {
+        &soil->inner, own, own, soil->set.name, soil->set.name, MOR_KERNEL_SUPPORT * soil->smoothing_length};
+    mor_status status = mor_relation_check_cluster(context, &check, cluster);
+    for (int k = 0; k < mor_soil_contact_count(soil) && status == MOR_OK; ++k) {
+        status = mor_soil_contact_check_lists(context, mor_soil_contact_at(soil, k), &check, cluster);
+    }
+    return status;
 }
 
 mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *view, const mor_step *step)
@@ -181,5 +182,6 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
     if (!soil->has_boundary_lists) {
         MOR_TRY(context, build_boundary_lists(context, soil, view, &points));
     }
-    return holds || soil->sleep.states == NULL ? MOR_OK : mor_soil_list_sleep_bodies(context, soil);
+    const bool is_done = holds || soil->sleep.states == NULL;
+    return is_done ? check_lists(context, soil, points, step) : mor_soil_list_sleep_bodies(context, soil);
 }

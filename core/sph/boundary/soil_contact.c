@@ -307,6 +307,25 @@ static void find_farthest(void *job, int64_t first, int64_t last, double *values
     }
 }
 
+void mor_soil_contact_count_patches(const mor_soil_contact *contact, int8_t *n_patches)
+{
+    for (int64_t place = 0; place < contact->relation.n_occupied; ++place) {
+        int8_t *count = n_patches + contact->relation.occupied[place];
+        const int64_t n = *count + contact->first_slot[place + 1] - contact->first_slot[place];
+        *count = n < 2 ? (int8_t)n : 2;
+    }
+}
+
+mor_status mor_soil_contact_check_lists(mor_context *context, const mor_soil_contact *contact,
+                                        const mor_relation_check *soil, int64_t cluster)
+{
+    mor_relation_check check = *soil;
+    check.relation = &contact->relation;
+    check.target = (mor_relation_points){&contact->tree, contact->boundary->records, RECORD};
+    check.target_name = contact->name;
+    return contact->n_removed > 0 ? MOR_OK : mor_relation_check_cluster(context, &check, cluster);
+}
+
 double mor_soil_contact_drift(mor_context *context, mor_soil_contact *contact)
 {
     const mor_blocks blocks = {.n_items = contact->n_points, .block_items = MOR_BLOCK, .grain = 1};

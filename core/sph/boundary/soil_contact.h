@@ -6,6 +6,7 @@
 #include "core/geometry/motion.h"
 #include "core/particle/boundary.h"
 #include "core/particle/images.h"
+#include "core/particle/relation_check.h"
 #include "core/particle/skin.h"
 #include "core/sph/pair/pair.h"
 #include "core/sph/sleep/sleep.h"
@@ -211,6 +212,17 @@ mor_status mor_soil_contact_fill(mor_context *context, mor_soil_contact *contact
  *  particles of a wall, than ever before. */
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach);
+
+/** Counts which patches clusters of the soil list.
+ *  @param n_patches [in,out]  shape [n_soil_clusters]; of all boundaries so far, 2 for more, 1 */
+void mor_soil_contact_count_patches(const mor_soil_contact *contact, int8_t *n_patches);
+
+/** Looks whether a cluster of the soil lists all points of the boundary that are near.
+ *  @param soil    [in]  what is looked for in the soil itself, unit m
+ *  @param cluster [in]  of the soil
+ *  Returns: as mor_relation_check_cluster; MOR_OK where parts of the boundary are removed. */
+mor_status mor_soil_contact_check_lists(mor_context *context, const mor_soil_contact *contact,
+                                        const mor_relation_check *soil, int64_t cluster);
 
 /** Returns how far any point of the boundary has moved since the lists were built, unit m; not a number when a
  *  position is none. */
