@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Hypoplastic sand: von Wolffersdorff (1996), with the intergranular strain of Niemunis and Herle (1997). The law gives
  * rates only; they are integrated by the host. docs/theory/hypoplastic.md has the equations, numbered (H1) to (H14). */
-#include "core/base/exponential.h"
 #include "core/material/kit/integration.h"
 #include "core/material/kit/lanes.h"
 #include "core/material/kit/material.h"
 #include "materials/frame/entries.h"
 #include "materials/frame/invariants.h"
+#include "materials/frame/lane_math.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -27,9 +27,6 @@
 /** The name of something in the variant that is being compiled: stem_baseline, stem_avx2 or stem_avx512. */
 #define MOR_ISA_NAME(stem) MOR_ISA_JOIN(stem, MOR_ISA)
 
-/** For functions called from a loop over lanes: they must vanish into it. */
-#define MOR_ALWAYS_INLINE inline __attribute__((always_inline))
-
 /** Instruction sets, from the slowest to the fastest. */
 enum { MOR_ISA_BASELINE, MOR_ISA_AVX2, MOR_ISA_AVX512, MOR_ISA_COUNT };
 

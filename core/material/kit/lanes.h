@@ -16,6 +16,6 @@
 enum { MOR_LANES = 16 };
 
 /** For functions called from a loop over lanes: they must vanish into it. */
-#define MOR_LANES_INLINE MOR_ALWAYS_INLINE
+#define MOR_LANES_INLINE inline __attribute__((always_inline))
 
 #endif

@@ -3,14 +3,11 @@
 #ifndef MOR_CORE_SPH_PAIR_PAIR_LANES_H
 #define MOR_CORE_SPH_PAIR_PAIR_LANES_H
 
-#include "core/base/exponential.h"
 #include "core/base/math.h"
 #include "core/sph/pair/lane_math.h"
 #include "core/sph/pair/pair.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 /** @file
@@ -226,26 +223,17 @@ INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
 }
 
 /** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, from
- *  1 - q/2; 1. */
+ *  1 - q/2; 1. The power is taken lane by lane: the callers ask for it only where a pair is under tension. */
 INLINE vec artificial_factor(vec reach, const mor_pair_constants *c)
 {
     const vec square = reach * reach;
     const vec shape = square * square * (4.0 * (1.0 - reach) + 1.0);
     const vec f = shape * (real)(c->kernel_normalization / c->spacing_kernel);
-    double power[LANES];
+    vec power;
     for (int lane = 0; lane < LANES; ++lane) {
-        power[lane] = f[lane];
+        power[lane] = f[lane] > 0.0 ? (real)pow(f[lane], c->artificial_exponent) : (real)0.0;
     }
-    for (int lane = 0; lane < LANES; ++lane) {
-        const bool sees = power[lane] > DBL_MIN;
-        const double some = mor_lane_exp(c->artificial_exponent * mor_lane_log(sees ? power[lane] : 1.0));
-        power[lane] = sees ? some : 0.0;
-    }
-    vec result;
-    for (int lane = 0; lane < LANES; ++lane) {
-        result[lane] = (real)power[lane];
-    }
-    return result;
+    return power;
 }
 
 /* What the loops read, in doubles or in singles. */

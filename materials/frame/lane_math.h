@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_BASE_EXPONENTIAL_H
-#define MOR_CORE_BASE_EXPONENTIAL_H
+#ifndef MOR_MATERIALS_FRAME_LANE_MATH_H
+#define MOR_MATERIALS_FRAME_LANE_MATH_H
 
-#include "core/base/isa.h"
+#include "core/material/kit/lanes.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -13,7 +13,7 @@
  *  with any instruction set. Relative error below 1e-15, or absolute near a logarithm of zero. */
 
 /** Returns the bits of a number of any unit, 1. */
-static MOR_ALWAYS_INLINE uint64_t mor_lane_bits(double x)
+static MOR_LANES_INLINE uint64_t mor_lane_bits(double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -21,7 +21,7 @@ static MOR_ALWAYS_INLINE uint64_t mor_lane_bits(double x)
 }
 
 /** Returns the number of any unit that has these bits, 1. */
-static MOR_ALWAYS_INLINE double mor_lane_number(uint64_t bits)
+static MOR_LANES_INLINE double mor_lane_number(uint64_t bits)
 {
     double x;
     memcpy(&x, &bits, sizeof x);
@@ -30,7 +30,7 @@ static MOR_ALWAYS_INLINE double mor_lane_number(uint64_t bits)
 
 /** Returns exp(x); x is taken as -700 below and 700 above these; NaN gives some number. Unit 1.
  *  exp(x) = 2^k exp(r) with |r| <= ln(2)/2 and Taylor's polynomial of degree 13. */
-static MOR_ALWAYS_INLINE double mor_lane_exp(double x)
+static MOR_LANES_INLINE double mor_lane_exp(double x)
 {
     static const double inverse_ln2 = 1.44269504088896340736;
     static const double ln2_high = 6.93147180369123816490e-01;
@@ -60,7 +60,7 @@ static MOR_ALWAYS_INLINE double mor_lane_exp(double x)
 
 /** Returns ln(x) for a normal x > 0; for others some number. Unit 1.
  *  x = 2^k m with m from sqrt(1/2) to sqrt(2), ln(m) = 2 artanh((m - 1)/(m + 1)) by its series. */
-static MOR_ALWAYS_INLINE double mor_lane_log(double x)
+static MOR_LANES_INLINE double mor_lane_log(double x)
 {
     static const double ln2_high = 6.93147180369123816490e-01;
     static const double ln2_low = 1.90821492927058770002e-10;

@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/base/exponential.h"
 #include "core/base/random.h"
+#include "materials/frame/lane_math.h"
 
 #include <float.h>
 #include <math.h>
