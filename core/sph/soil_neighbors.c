@@ -140,12 +140,13 @@ static bool boundary_lists_hold(mor_context *context, mor_soil *soil, const doub
 /* In the checked build: that a cluster, another in each step, lists all that is near. Not through periodic faces. */
 static mor_status check_lists(mor_context *context, mor_soil *soil, mor_relation_points own, const mor_step *step)
 {
-    const int64_t cluster = (int64_t)(step->number * 8191 % (uint64_t)soil->tree.n_clusters);
-    if (!context->is_checked || soil->period.is_any || mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD)) {
+    if (!context->is_checked || soil->period.is_any || soil->tree.n_clusters == 0) {
         return MOR_OK;
     }
-    const mor_relation_check check = {
-        &soil->inner, own, own, soil->set.name, soil->set.name, MOR_KERNEL_SUPPORT * soil->smoothing_length};
+    const int64_t cluster = (int64_t)(step->number * 8191 % (uint64_t)soil->tree.n_clusters);
+    const bool is_held = mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD); /* its lists are not read */
+    const double support = is_held ? 0.0 : MOR_KERNEL_SUPPORT * soil->smoothing_length;
+    const mor_relation_check check = {&soil->inner, own, own, soil->set.name, soil->set.name, support};
     mor_status status = mor_relation_check_cluster(context, &check, cluster);
     for (int k = 0; k < mor_soil_contact_count(soil) && status == MOR_OK; ++k) {
         status = mor_soil_contact_check_lists(context, mor_soil_contact_at(soil, k), &check, cluster);
@@ -170,7 +171,6 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
         soil->has_boundary_lists = !mor_soil_contact_is_stale(mor_soil_contact_at(soil, k));
     }
     soil->has_lists = soil->has_lists && lists_hold(context, soil, position, support, skin);
-    /* Images are those of both. */
     soil->has_boundary_lists = soil->has_boundary_lists && (soil->has_lists || !soil->period.is_any) &&
                                boundary_lists_hold(context, soil, position, support, skin);
     soil->has_lists = soil->has_lists && (soil->has_boundary_lists || !soil->period.is_any);
