@@ -288,6 +288,26 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
     }
 }
 
+/* Velocity of a particle that the soil sees: docs/theory/coupling.md, "The velocity that the soil sees". */
+static void find_seen_velocity(const mor_body_group *group, const mor_body *body, int64_t i, double *seen)
+{
+    const double *mean = group->mean_velocity + 3 * i;
+    const double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
+    if (!group->operations->is_deformable || body->is_light) {
+        memcpy(seen, v, 3 * sizeof *seen);
+        return;
+    }
+    const double half = body->is_clamped ? 0.0 : 0.5;
+    double arm[3];
+    double spin[3];
+    for (int a = 0; a < 3; ++a) {
+        arm[a] = group->set.data[MOR_FIELD_POSITION][3 * i + a] - body->center[a];
+        spin[a] = body->angular_velocity[a] - body->begin_angular_velocity[a];
+        seen[a] = mean[a] + half * (body->velocity[a] - body->begin_velocity[a]);
+    }
+    mor_vector_cross_add(half, spin, arm, seen);
+}
+
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length)
 {
     const double *position = group->set.data[MOR_FIELD_POSITION];
@@ -298,9 +318,7 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
-        /* The mean lags half a step behind the velocities of the soil, which adds energy to bodies lighter than the
-         * soil. */
-        const bool is_light = group->bodies[piece->body].is_light;
+        const mor_body *body = &group->bodies[piece->body];
         double fastest = 0.0;
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
             const double *v = velocity + 3 * i;
@@ -308,8 +326,8 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
             double *mean = group->mean_velocity + 3 * i;
             for (int a = 0; a < 3; ++a) {
                 mean[a] = (position[3 * i + a] - group->start[3 * i + a]) / length;
-                seen[a] = is_light ? v[a] : mean[a];
             }
+            find_seen_velocity(group, body, i, seen);
             fastest = fmax(fastest, fmax(mor_vector_dot(seen, seen), mor_vector_dot(v, v)));
         }
         group->piece_speed2[p] = fastest;

@@ -96,8 +96,10 @@ typedef struct mor_body {
     double begin_velocity[3];         /* of the center when the last common step began, m/s */
     double begin_angular_velocity[3]; /* likewise, rad/s */
     bool is_held;            /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    bool is_clamped;         /* particles of an elastic body stand still: it has no motion as a whole */
     bool is_absent;          /* was removed before the run began: its energy does not count */
     double added_mass_ratio; /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
+    double slowing;          /* factor by which it shortens the soil's steps, 1; 0: no soil */
     bool is_light;           /* that ratio is above 1, or it is less dense than the soil */
     /* Forces. */
     double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
@@ -162,10 +164,10 @@ typedef struct mor_body_group {
     double domain_minimum[3], domain_maximum[3]; /* m, before the placement */
     const mor_domain_frame *placement;           /* of the domain; borrowed; NULL: neither rotated nor translated */
     /* Longest step that contact allows, unit s (INFINITY: any); NULL without contact. Set by mor_contact_init. */
-    double (*longest_contact_step)(const void *contact, const struct mor_body_group *group);
+    double (*longest_contact_step)(mor_context *context, const void *contact, const struct mor_body_group *group);
     /** Of a checked run: shows what contact remembers. Likewise. */
     void (*visit_contact)(const void *contact, mor_shared_visit visit, void *job);
-    const void *contact;    /* first argument of both; borrowed */
+    const void *contact;    /* what both are handed; borrowed */
     mor_body_piece *pieces; /* shape [n_pieces]; by rising range, without gaps */
     int64_t n_pieces;
     /* Scratch of loops over pieces. */
@@ -228,8 +230,10 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group);
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
 
-/** After the sub-steps: gives the soil the mean velocities over the common step, Zhang et al. (2024) eq. 60, of bodies
- *  lighter than the soil around them the present velocities, and the largest speed of both.
+/** After the sub-steps: gives the soil the present velocities of rigid and of light bodies, of other elastic ones the
+ *  mean velocities over the common step, Zhang et al. (2024) eq. 60, plus what their motion as a whole gained beyond
+ *  it (docs/theory/coupling.md, C6a), and the largest speed of both. Motion as a whole is to be that of the step's
+ *  end.
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
 
@@ -248,8 +252,8 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
 /** Finds the added mass of soil of a body over its own mass: the soil within one spacing of its surface, that which
  *  slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
  *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
- *  is light: the soil sees its velocity at the end of a step in place of the mean over the step, and takes steps
- *  shorter by the root of the ratio (core/particle/boundary.h). To be called before the first step.
+ *  is light: the soil takes steps shorter by the root of the ratio, of an elastic body by 1.3 times that
+ *  (core/particle/boundary.h). To be called before the first step.
  *  @param group           [in,out]  made by mor_body_group_init
  *  @param body            [in]      index of the body
  *  @param density         [in]      of the soil, unit kg/m3

@@ -168,6 +168,7 @@ static mor_status list_bodies(mor_context *context, mor_contact *contact)
     MOR_TRY(context, MOR_NEW(context, &work->bodies, work->n_bodies, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->boxes, 6 * (int64_t)work->n_bodies, "contact"));
     MOR_TRY(context, MOR_NEW(context, &work->speeds, work->n_bodies, "contact"));
+    MOR_TRY(context, MOR_NEW(context, &work->longest, work->n_bodies, "contact"));
     for (int g = 0; g < contact->n_groups; ++g) {
         mor_body_group *group = contact->groups[g];
         for (int b = 0; b < group->n_bodies; ++b) {
@@ -292,6 +293,7 @@ static void clear_work(mor_context *context, mor_contact_work *work)
     MOR_FREE(context, &work->bodies);
     MOR_FREE(context, &work->boxes);
     MOR_FREE(context, &work->speeds);
+    MOR_FREE(context, &work->longest);
     MOR_FREE(context, &work->near);
     MOR_FREE(context, &work->active);
     MOR_FREE(context, &work->first_touch);
@@ -353,7 +355,7 @@ static mor_status find_partners(mor_context *context, void *owner, double length
 {
     const mor_contact *contact = owner;
     const mor_contact_work *work = contact->work;
-    mor_contact_find_boxes(contact, work->speeds);
+    mor_contact_find_boxes(context, contact, work->speeds);
     for (int a = 0; a < work->n_bodies; ++a) {
         const mor_contact_body *p = &work->bodies[a];
         for (int b = a + 1; b < work->n_bodies; ++b) {

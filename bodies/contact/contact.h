@@ -144,12 +144,12 @@ void mor_contact_wall_force(const mor_contact *contact, int wall, uint64_t membe
 /** Longest step that the normal springs of a group's bodies allow, unit s; INFINITY when none of its bodies is near
  *  another or a wall. A function of the present state alone. mor_contact_init sets it in each group.
  *  @param contact [in]  a mor_contact */
-double mor_contact_longest_step(const void *contact, const mor_body_group *group);
+double mor_contact_longest_step(mor_context *context, const void *contact, const mor_body_group *group);
 
 /** The same once bodies touch, unit s: no longer than the step of any one pair of them, or body and wall, in touch,
  *  however far apart they are now; INFINITY without pairs. Bodies that touch several others at once may need shorter
  *  ones. May be set in a group in place of the above.
  *  @param contact [in]  a mor_contact */
-double mor_contact_touching_step(const void *contact, const mor_body_group *group);
+double mor_contact_touching_step(mor_context *context, const void *contact, const mor_body_group *group);
 
 #endif

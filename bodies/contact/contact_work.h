@@ -103,6 +103,7 @@ typedef struct mor_contact_work {
     mor_contact_body *bodies; /* shape [n_bodies] */
     double *boxes;            /* shape [n_bodies, 6]; around each body at the last look; minimum, maximum, m */
     double *speeds;           /* shape [n_bodies]; scratch, m/s */
+    double *longest;          /* shape [n_bodies]; scratch, s */
     int n_bodies;
     int first_body[MOR_BODY_GROUPS_MAX];     /* of each group */
     int64_t first_node[MOR_BODY_GROUPS_MAX]; /* of each group in the history */
@@ -379,7 +380,7 @@ double mor_contact_gravity(const mor_contact_body *c);
 /** Finds boxes and largest speeds of all bodies now.
  *  @param contact [in]   its boxes are written
  *  @param speeds  [out]  shape [n_bodies], unit m/s */
-void mor_contact_find_boxes(const mor_contact *contact, double *speeds);
+void mor_contact_find_boxes(mor_context *context, const mor_contact *contact, double *speeds);
 
 /** Depth of a pair that stops a run, unit m.
  *  @param first   [in]  index of a body

@@ -218,7 +218,6 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
     const mor_body_group *group = &elastic->group;
     const double h = elastic->smoothing_length;
     const double wave = elastic->sound_speed * sqrt(1.0 + scheme->hourglass);
-    (void)context;
     *step_length = scheme->body_courant * h / (wave + elastic->largest_speed);
     *limit = "the speed of sound in the bodies";
     const double by_acceleration = scheme->body_courant * sqrt(h / elastic->largest_acceleration);
@@ -237,7 +236,7 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
         *limit = "the damping";
     }
     if (group->longest_contact_step != NULL) {
-        const double by_contact = group->longest_contact_step(group->contact, group);
+        const double by_contact = group->longest_contact_step(context, group->contact, group);
         if (by_contact < *step_length) {
             *step_length = by_contact;
             *limit = "the contact of the bodies";
@@ -256,8 +255,8 @@ static mor_status begin_step(mor_context *context, void *owner, const mor_step *
 static mor_status finish_step(mor_context *context, void *owner, const mor_step *step)
 {
     mor_elastic *elastic = owner;
-    mor_body_group_finish(context, &elastic->group, step->length);
     mor_body_group_observe(context, &elastic->group, step->length);
+    mor_body_group_finish(context, &elastic->group, step->length);
     return MOR_OK;
 }
 
@@ -388,7 +387,7 @@ static void elastic_make_stepper(mor_body_group *group, mor_stepper *stepper, ui
 static int64_t elastic_start(mor_body_group *group, int body, const mor_body_start *start)
 {
     const mor_elastic *elastic = group->owner;
-    const mor_body *own = &group->bodies[body];
+    mor_body *own = &group->bodies[body];
     int64_t n_clamped = 0;
     for (int64_t i = own->first; i < own->first + own->n_particles; ++i) {
         const double *reference = group->reference + 3 * i;
@@ -409,6 +408,7 @@ static int64_t elastic_start(mor_body_group *group, int body, const mor_body_sta
             memset(v, 0, 3 * sizeof *v);
         }
     }
+    own->is_clamped = n_clamped > 0;
     return n_clamped;
 }
 

@@ -195,7 +195,6 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
     const mor_rigid *rigid = owner;
     const mor_body_group *group = &rigid->group;
     const double way = LONGEST_WAY * group->spacing;
-    (void)context;
     *step_length = INFINITY;
     *limit = "nothing";
     for (int b = 0; b < group->n_bodies; ++b) {
@@ -219,7 +218,7 @@ static mor_status propose_step(mor_context *context, void *owner, double *step_l
         }
     }
     if (group->longest_contact_step != NULL) {
-        const double by_contact = group->longest_contact_step(group->contact, group);
+        const double by_contact = group->longest_contact_step(context, group->contact, group);
         /* Written so that a length that is not a number is taken, and reported by the schedule. */
         if (!(by_contact >= *step_length)) {
             *step_length = by_contact;

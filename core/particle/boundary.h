@@ -54,7 +54,7 @@ typedef struct mor_boundary_patch {
  *  every eight form a compact cluster (mor_tree_order); neither order nor number changes during a run.
  *
  *  When the soil reads: positions and velocities at the start of its stages; velocities once more after the boundary
- *  forces, when the owner has replaced them by the means over the step. When it writes: force of points, force and
+ *  forces, when the owner has replaced them by those of this step. When it writes: force of points, force and
  *  moment of patches with the boundary forces, impulse in the kick that follows. The forces of a patch's points add up
  *  to its force and, about the origin, to its moment; both are minus what the soil got. */
 typedef struct mor_boundary {
@@ -67,8 +67,7 @@ typedef struct mor_boundary {
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;
     double largest_speed;        /* of any point, m/s; bounds how far points move in a step */
-    double added_mass_ratio;     /* added mass of soil over the mass of the patch, the largest of all patches, 1;
-                              * 0: moved by others than the soil. Above 1 it shortens the soil's steps by its root */
+    double slowing;              /* factor by which light bodies shorten the soil's steps, 1; 0: none does */
     const double *mean_velocity; /* shape [n_points, 3]; over the present step, for the work of forces on points, m/s;
                                   * NULL: the velocity in the records */
     double *force;               /* shape [n_points, 3]; [written by the soil] force on each point in the last step,

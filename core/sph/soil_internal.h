@@ -101,12 +101,12 @@ static inline mor_blocks mor_soil_blocks(const mor_soil *soil, int64_t block_ite
 bool mor_soil_has_density_sums(const void *owner);
 
 /** Steps of which stress diffuses in one, for all of them, 1: two where only what changes diffuses, the diffusion
- *  number, zeta times courant times two, is at most 0.2 (unstable between 0.32 and 0.36), and courant at most 0.6
+ *  number, zeta times courant times two, is at most 0.2 (unstable between 0.32 and 0.36), and courant at most 0.5
  *  (unstable at 0.7 around elastic rocks), else one. Four were unstable at 0.16 around rocks, three stable at 0.19. */
 static inline int mor_soil_diffusion_interval(const mor_soil *soil)
 {
     const double largest_number = 0.2;
-    const double largest_courant = 0.6;
+    const double largest_courant = 0.5;
     const mor_scheme *scheme = &soil->settings.scheme;
     const double steps = largest_number / (scheme->stress_diffusion * scheme->courant);
     return !soil->constants.has_transient || steps < 2.0 || scheme->courant > largest_courant ? 1 : 2;

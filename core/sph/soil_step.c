@@ -48,18 +48,18 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
     const double h = soil->smoothing_length;
     double fastest = soil->largest_speed;
     double by_barrier = INFINITY;
-    double added_mass_ratio = 1.0;
+    double slowing = 1.0;
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         fastest = fmax(fastest, mor_soil_contact_speed(mor_soil_contact_at(soil, k)));
         by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
-        added_mass_ratio = fmax(added_mass_ratio, mor_soil_contact_at(soil, k)->boundary->added_mass_ratio);
+        slowing = fmax(slowing, mor_soil_contact_at(soil, k)->boundary->slowing);
     }
     *step_length = soil->settings.scheme.courant * h / (soil->sound_speed + fastest);
     *limit = "the speed of sound in the soil";
-    if (added_mass_ratio > 1.0) {
-        *step_length /= sqrt(added_mass_ratio);
+    if (slowing > 1.0) {
+        *step_length /= slowing;
         *limit = "a body lighter than its added mass of soil";
-        by_barrier /= sqrt(added_mass_ratio);
+        by_barrier /= slowing;
     }
     if (soil->largest_acceleration > 0.0) {
         const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);

@@ -32,7 +32,7 @@
     "domain = { min = (-1, -1); max = (1, 1); };"                                                                      \
     "soil = ( { name = 'sand'; shape = { type = 'box'; min = (-0.1, -0.1); max = (0.1, 0.1); };" SAND(                 \
         "0 Pa") "  velocity_formula = ('4*x', '4*y'); } );"                                                            \
-                "numerics = { dissipation_factor = 0; soil_hourglass = 0; " numerics " };"                             \
+                "numerics = { courant = 0.5; dissipation_factor = 0; soil_hourglass = 0; " numerics " };"              \
                 "probes = ( { name = 'volume'; type = 'volume'; }, { name = 'drift'; type = 'density_drift'; } );"
 
 /* Height of the center of mass at rest over that of the block; 1: as dense as before. */
@@ -103,12 +103,19 @@ static void sand_that_flies_apart_separates_by_its_volume(void **state)
     "numerics = { " numerics " };"                                                                                     \
     "probes = ( { name = 'drift'; type = 'density_drift'; percentile = 99.0; } );"
 
+/* The mean of runs with steps of unlike lengths: single ones differ by a quarter. */
 static double largest_drift(const char *text)
 {
-    scene *it = scene_new(&(scene_request){.text = text});
-    scene_advance(it, 0.4);
-    const double drift = scene_probe(it, "drift");
-    scene_free(it);
+    static const char *const steps[][2] = {
+        {"numerics.courant=0.4"}, {"numerics.courant=0.5"}, {"numerics.courant=0.6"}, {"numerics.courant=0.65"}};
+    enum { N_RUNS = sizeof steps / sizeof *steps };
+    double drift = 0.0;
+    for (int k = 0; k < N_RUNS; ++k) {
+        scene *it = scene_new(&(scene_request){text, (const char *const *[]){steps[k]}, 1, 1});
+        scene_advance(it, 0.4);
+        drift += scene_probe(it, "drift") / N_RUNS;
+        scene_free(it);
+    }
     return drift;
 }
 

@@ -28,13 +28,15 @@ static scene *soil_among(const char *soil, const char *walls, const char *rest)
 #define PLAIN "dissipation_factor = 0; stress_diffusion = 0; "
 #define WALL(name, shape) "{ name = '" name "'; friction = 'smooth'; shape = { type = " shape "; }; }"
 
-/* Acceleration of all particles, at rest under uniform pressure; shape [n_particles, 3], unit m/s2. */
+/* Acceleration of all particles, at rest under uniform pressure and as if nothing had been before; shape
+ * [n_particles, 3], unit m/s2. */
 static const double *press(scene *it)
 {
     const int64_t n = it->simulation.soil.set.n_particles;
     memset(free_block_field(it, MOR_FIELD_VELOCITY), 0, (size_t)(3 * n) * sizeof(double));
     for (int64_t k = 0; k < n; ++k) {
         free_block_field(it, MOR_FIELD_DENSITY)[k] = DENSITY;
+        free_block_field(it, MOR_FIELD_SEPARATION)[k] = 0.0;
         for (int a = 0; a < 6; ++a) {
             free_block_field(it, MOR_FIELD_STRESS)[6 * k + a] = a < 3 ? -PRESSURE : 0.0;
         }

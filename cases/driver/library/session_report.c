@@ -192,13 +192,13 @@ static void set_touching(mor_simulation *s, bool is_touching)
 static void print_lightest(FILE *out, const mor_simulation *s)
 {
     const mor_body *lightest = NULL;
-    double ratio = 1.0;
+    double slowing = 1.0;
     for (int g = 0; g < s->bodies.n_groups; ++g) {
         const mor_body_group *group = s->bodies.groups[g];
         for (int b = 0; b < group->n_bodies; ++b) {
-            if (group->bodies[b].added_mass_ratio > ratio) {
+            if (group->bodies[b].slowing > slowing) {
                 lightest = &group->bodies[b];
-                ratio = lightest->added_mass_ratio;
+                slowing = lightest->slowing;
             }
         }
     }
@@ -207,7 +207,7 @@ static void print_lightest(FILE *out, const mor_simulation *s)
             out,
             "  lightest body           '%s' has an added mass of soil up to %.3g times its own mass: steps %.2g times "
             "shorter\n",
-            lightest->name, ratio, sqrt(ratio));
+            lightest->name, lightest->added_mass_ratio, slowing);
     }
 }
 

@@ -72,7 +72,7 @@ static void bodies_alone_may_take_any_step(void **state)
     const contact_scene_request request = plain_request(bodies, 2);
     contact_scene scene;
     contact_scene_open(&scene, &request);
-    assert_true(isinf(mor_contact_longest_step(&scene.contact, &scene.rigid.group)));
+    assert_true(isinf(mor_contact_longest_step(&scene.context, &scene.contact, &scene.rigid.group)));
     contact_scene_close(&scene);
 }
 
@@ -98,7 +98,7 @@ static void the_step_is_a_part_of_the_period_on_the_contact_spring(void **state)
     const double modulus = request.modulus / (1.0 - request.poisson * request.poisson);
     const double depth = pow(15.0 * mass * speed * speed / (16.0 * modulus * sqrt(radius)), 0.4);
     const double expected = 0.1 * sqrt(mass / (2.0 * modulus * sqrt(radius * depth)));
-    const double step = mor_contact_longest_step(&scene.contact, &scene.rigid.group);
+    const double step = mor_contact_longest_step(&scene.context, &scene.contact, &scene.rigid.group);
     contact_scene_expect("step over a tenth of sqrt(m/K)", step / expected, 0.75, 0.26); /* curvature by differences */
     contact_scene_close(&scene);
 }
@@ -119,9 +119,9 @@ static void the_step_of_touching_bodies_does_not_depend_on_gaps(void **state)
             contact_scene scene;
             contact_scene_open(&scene, &request);
             const mor_body_group *group = k == 0 ? &scene.rigid.group : &scene.elastic.group;
-            near_step = is_far ? near_step : mor_contact_longest_step(&scene.contact, group);
-            assert_true(!is_far || mor_contact_longest_step(&scene.contact, group) > 10.0 * near_step);
-            step = mor_contact_touching_step(&scene.contact, group);
+            near_step = is_far ? near_step : mor_contact_longest_step(&scene.context, &scene.contact, group);
+            assert_true(!is_far || mor_contact_longest_step(&scene.context, &scene.contact, group) > 10.0 * near_step);
+            step = mor_contact_touching_step(&scene.context, &scene.contact, group);
             contact_scene_expect("step", step, near_step, 1.0e-6 * near_step); /* places of nodes by Newton steps */
             contact_scene_close(&scene);
         }

@@ -415,8 +415,9 @@ static double find_proposal(rigid_scene *it, const char *limit)
     return length;
 }
 
-static double contact_step(const void *contact, const mor_body_group *group)
+static double contact_step(mor_context *context, const void *contact, const mor_body_group *group)
 {
+    (void)context;
     (void)group;
     return *(const double *)contact;
 }
