@@ -272,6 +272,7 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
         mor_body *body = &group->bodies[b];
         memcpy(body->begin_velocity, body->velocity, sizeof body->velocity);
         memcpy(body->begin_angular_velocity, body->angular_velocity, sizeof body->angular_velocity);
+        memcpy(body->begin_rate, body->rate, sizeof body->rate);
     }
     MOR_PARALLEL_FOR (&team, p, group->is_unseen ? 0 : group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
@@ -288,24 +289,24 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
     }
 }
 
-/* Velocity of a particle that the soil sees: docs/theory/coupling.md, "The velocity that the soil sees". */
+/* Velocity of a particle of an elastic body that the soil sees: its mean over the step, and what the linear part of the
+ * body's motion gained beyond it. docs/theory/coupling.md, C6b. */
 static void find_seen_velocity(const mor_body_group *group, const mor_body *body, int64_t i, double *seen)
 {
     const double *mean = group->mean_velocity + 3 * i;
-    const double *v = group->set.data[MOR_FIELD_VELOCITY] + 3 * i;
-    if (!group->operations->is_deformable || body->is_light) {
-        memcpy(seen, v, 3 * sizeof *seen);
-        return;
-    }
     const double half = body->is_clamped ? 0.0 : 0.5;
+    const double *center = group->reference_centers + 3 * (body - group->bodies);
     double arm[3];
-    double spin[3];
     for (int a = 0; a < 3; ++a) {
-        arm[a] = group->set.data[MOR_FIELD_POSITION][3 * i + a] - body->center[a];
-        spin[a] = body->angular_velocity[a] - body->begin_angular_velocity[a];
-        seen[a] = mean[a] + half * (body->velocity[a] - body->begin_velocity[a]);
+        arm[a] = group->reference[3 * i + a] - center[a];
     }
-    mor_vector_cross_add(half, spin, arm, seen);
+    for (int a = 0; a < 3; ++a) {
+        double gain = body->velocity[a] - body->begin_velocity[a];
+        for (int b = 0; b < 3; ++b) {
+            gain += (body->rate[3 * a + b] - body->begin_rate[3 * a + b]) * arm[b];
+        }
+        seen[a] = mean[a] + half * gain;
+    }
 }
 
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length)
@@ -318,7 +319,6 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
     const mor_body_team team = mor_body_team_for(context, group->set.n_particles);
     MOR_PARALLEL_FOR (&team, p, group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
-        const mor_body *body = &group->bodies[piece->body];
         double fastest = 0.0;
         for (int64_t i = piece->first; i < piece->first + piece->n_particles; ++i) {
             const double *v = velocity + 3 * i;
@@ -327,7 +327,11 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
             for (int a = 0; a < 3; ++a) {
                 mean[a] = (position[3 * i + a] - group->start[3 * i + a]) / length;
             }
-            find_seen_velocity(group, body, i, seen);
+            if (group->operations->is_deformable) {
+                find_seen_velocity(group, &group->bodies[piece->body], i, seen);
+            } else {
+                memcpy(seen, v, 3 * sizeof *seen);
+            }
             fastest = fmax(fastest, fmax(mor_vector_dot(seen, seen), mor_vector_dot(v, v)));
         }
         group->piece_speed2[p] = fastest;
@@ -361,6 +365,7 @@ static void sum_piece(const mor_body_group *group, const mor_body_piece *piece, 
         for (int a = 0; a < 3; ++a) {
             for (int b = 0; b < 3; ++b) {
                 s.map[3 * a + b] += d[a] * reference[b];
+                s.rate[3 * a + b] += w[a] * reference[b];
             }
             s.spread[a] += d[a] * d[a];
             s.spread[3 + a] += d[a] * d[(a + 1) % 3];
@@ -437,12 +442,14 @@ static void observe_body(mor_body_group *group, int b, const mor_body_sums *sums
         body->velocity[a] = group->set.data[MOR_FIELD_VELOCITY][3 * body->first + a] + sums->velocity[a] / n;
     }
     find_spin(group, sums, n, spin);
+    memset(body->rate, 0, sizeof body->rate);
     for (int a = 0; a < 3; ++a) {
         body->rotation_angle[a] += 0.5 * length * (body->angular_velocity[a] + spin[a]);
         body->angular_velocity[a] = spin[a];
         for (int c = 0; c < 3; ++c) {
             for (int k = 0; k < 3; ++k) {
                 map[3 * a + c] += sums->map[3 * a + k] * spread[3 * k + c];
+                body->rate[3 * a + c] += sums->rate[3 * a + k] * spread[3 * k + c];
             }
         }
     }
@@ -461,6 +468,7 @@ static void add_sums(const mor_body_sums *part, mor_body_sums *sums)
     }
     for (int k = 0; k < 9; ++k) {
         sums->map[k] += part->map[k];
+        sums->rate[k] += part->rate[k];
     }
     for (int k = 0; k < 6; ++k) {
         sums->spread[k] += part->spread[k];

@@ -95,12 +95,13 @@ typedef struct mor_body {
     double rotation_angle[3];         /* integral of the angular velocity since the start, rad */
     double begin_velocity[3];         /* of the center when the last common step began, m/s */
     double begin_angular_velocity[3]; /* likewise, rad/s */
-    bool is_held;            /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
-    bool is_clamped;         /* particles of an elastic body stand still: it has no motion as a whole */
-    bool is_absent;          /* was removed before the run began: its energy does not count */
+    double rate[9];       /* of an elastic body: of its deformation gradient, the best linear one, shape [3,3], 1/s */
+    double begin_rate[9]; /* likewise, when the last common step began */
+    bool is_clamped;      /* particles of an elastic body stand still: it has no motion as a whole */
+    bool is_held;         /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    bool is_absent;       /* was removed before the run began: its energy does not count */
     double added_mass_ratio; /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
     double slowing;          /* factor by which it shortens the soil's steps, 1; 0: no soil */
-    bool is_light;           /* that ratio is above 1, or it is less dense than the soil */
     /* Forces. */
     double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
     double contact_moment[3]; /* about its center, N m (N) */
@@ -122,6 +123,7 @@ typedef struct mor_body_sums {
     double velocity[3]; /* w, m/s */
     double moment[3];   /* d x w, m2/s */
     double map[9];      /* shape [3,3]; d (x) D, m2 */
+    double rate[9];     /* shape [3,3]; w (x) D, m2/s */
     double spread[6];   /* d_a d_a, then d_a d_(a+1), m2 */
 } mor_body_sums;
 
@@ -230,10 +232,9 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group);
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
 
-/** After the sub-steps: gives the soil the present velocities of rigid and of light bodies, of other elastic ones the
- *  mean velocities over the common step, Zhang et al. (2024) eq. 60, plus what their motion as a whole gained beyond
- *  it (docs/theory/coupling.md, C6a), and the largest speed of both. Motion as a whole is to be that of the step's
- *  end.
+/** After the sub-steps: gives the soil the velocities it is to see (docs/theory/coupling.md, C6b): of rigid bodies the
+ *  present ones, of elastic ones the means over the common step, Zhang et al. (2024) eq. 60, with the linear part of
+ *  their motion at its end; and the largest speed of all. Elastic bodies are observed before.
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
 
@@ -252,7 +253,7 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
 /** Finds the added mass of soil of a body over its own mass: the soil within one spacing of its surface, that which
  *  slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
  *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
- *  is light: the soil takes steps shorter by the root of the ratio, of an elastic body by 1.3 times that
+ *  is light: the soil takes steps shorter by the root of the ratio, of an elastic body by 1.2 times that
  *  (core/particle/boundary.h). To be called before the first step.
  *  @param group           [in,out]  made by mor_body_group_init
  *  @param body            [in]      index of the body
@@ -262,7 +263,8 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
 void mor_body_find_added_mass(mor_body_group *group, int body, double density, double sound_speed, unsigned locked);
 
 /** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
- *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.
+ *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map) and the rate of that
+ *  map, rotation angle.
  *  @param length  [in]      time since the last call, unit s; for the rotation angle */
 void mor_body_group_observe(mor_context *context, mor_body_group *group, double length);
 

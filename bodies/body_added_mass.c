@@ -19,7 +19,7 @@
 
 /* Elastic bodies count with more, for their waves are slow where they are light: stable up to a Courant number of 0.5
  * over the root of the ratio, where rigid ones are at 0.65. */
-#define OF_ELASTIC (1.3 * 1.3)
+#define OF_ELASTIC (1.2 * 1.2)
 
 enum { MOTIONS = 6, ITERATIONS = 100 };
 
@@ -138,7 +138,6 @@ void mor_body_find_added_mass(mor_body_group *group, int index, double density, 
     find_own_mass(body, locked, &own);
     const double softness = SOFT_IMPEDANCE * density * sound_speed / (body->density * group->sound_speed);
     body->added_mass_ratio = fmax(find_largest_ratio(added, &own), softness * softness);
-    body->is_light = body->added_mass_ratio > 1.0 || body->density < density;
     const double counted = body->added_mass_ratio * (group->operations->is_deformable ? OF_ELASTIC : 1.0);
     body->slowing = counted > 1.0 ? sqrt(counted) : 1.0;
     group->boundary.slowing = fmax(group->boundary.slowing, body->slowing);

@@ -64,7 +64,7 @@ static void other_case_is_refused_without_the_case_file(void **state)
     prepare_stopped(folder);
     remove_file(folder, "run", CASE_FILE);
     expect_refusal(folder, "soil[0].material.friction_angle=30 deg", "friction_angle");
-    expect_refusal(folder, "numerics.courant=0.2", "numerics.courant = 0.2, was numerics.courant = 0.65");
+    expect_refusal(folder, "numerics.courant=0.2", "numerics.courant = 0.2, was numerics.courant = 0.6");
     expect_refusal(folder, "seed=2", "seed = 2, was seed = 1");
     expect_refusal(folder, "walls[1].velocity=(\"0.5 m/s\", 0, 0)", "walls[1].velocity");
 }
@@ -99,7 +99,7 @@ static void value_given_as_its_default_is_the_same_case(void **state)
     run_folder *folder = *state;
     prepare_stopped(folder);
     RUN_QUIETLY(folder, "whole", NULL);
-    RUN_QUIETLY(folder, "run", "--resume", "--set", "seed=1", "--set", "numerics.courant=0.65");
+    RUN_QUIETLY(folder, "run", "--resume", "--set", "seed=1", "--set", "numerics.courant=0.6");
     finished_run_compare(folder, "whole", "run");
 }
 

@@ -111,7 +111,7 @@ static void what_is_not_written_gets_its_default(void **state)
     const mor_case *c = &f->first;
     assert_string_equal(c->title, "");
     assert_int_equal(c->seed, 1);
-    assert_true(c->numerics.smoothing_ratio == 1.3 && c->numerics.courant == 0.65); /* exact */
+    assert_true(c->numerics.smoothing_ratio == 1.3 && c->numerics.courant == 0.6); /* exact */
     assert_true(c->numerics.dissipation_factor == 40.0);                           /* exact: 20 * dimension */
     assert_int_equal(c->numerics.dissipation, 0);
     assert_int_equal(c->numerics.wall_dissipation, 0);
