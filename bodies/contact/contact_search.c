@@ -129,7 +129,7 @@ double mor_contact_apart(const mor_contact *contact, int first, int second, cons
     const double *q = boxes + 6 * (int64_t)second;
     double d[3];
     for (int a = 0; a < 3; ++a) {
-        d[a] = fmax(0.0, fmax(q[a] - p[3 + a], p[a] - q[3 + a]));
+        d[a] = mor_max(mor_max(q[a] - p[3 + a], p[a] - q[3 + a]), 0.0);
     }
     return mor_vector_length(d);
 }

@@ -239,10 +239,13 @@ INLINE void add_artificial(audit_part *part, const audit_chunk *it, const audit_
         pair p;
         separate(p.r, &part->frame, target_of(arrays, it->near[q]), form.dimension);
         const vec reach = positive_part(1.0 - it->found->distance[q] * part->frame.half_inverse_h);
-        const vec power = artificial_factor(reach, c);
         vec s[6];
         for (int a = 0; a < 6; ++a) {
-            s[a] = (own[a] + other[a]) * power;
+            s[a] = own[a] + other[a];
+        }
+        const vec power = artificial_factor(reach, s[MOR_XX] + s[MOR_YY] + s[MOR_ZZ], c);
+        for (int a = 0; a < 6; ++a) {
+            s[a] *= power;
         }
         const vec force[3] = {dot_r(&p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], form.dimension),
                               dot_r(&p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], form.dimension),

@@ -222,16 +222,20 @@ INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
     return (geometry){with_square ? *distance2 : broadcast(0.0), g->distance[q], g->k[q]};
 }
 
-/** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, from
- *  1 - q/2; 1. The power is taken lane by lane: the callers ask for it only where a pair is under tension. */
-INLINE vec artificial_factor(vec reach, const mor_pair_constants *c)
+/** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, 1. It is
+ *  found lane by lane, where a pair is under tension; 0 elsewhere.
+ *  @param reach [in]  1 - q/2, 1
+ *  @param trace [in]  of the artificial stresses of both, unit Pa: zero without tension, since all principal stresses
+ *      have one sign */
+INLINE vec artificial_factor(vec reach, vec trace, const mor_pair_constants *c)
 {
     const vec square = reach * reach;
     const vec shape = square * square * (4.0 * (1.0 - reach) + 1.0);
     const vec f = shape * (real)(c->kernel_normalization / c->spacing_kernel);
     vec power;
     for (int lane = 0; lane < LANES; ++lane) {
-        power[lane] = f[lane] > 0.0 ? (real)pow(f[lane], c->artificial_exponent) : (real)0.0;
+        const bool is_needed = f[lane] > 0.0 && trace[lane] != 0.0;
+        power[lane] = is_needed ? (real)pow(f[lane], c->artificial_exponent) : (real)0.0;
     }
     return power;
 }

@@ -138,10 +138,13 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
 INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const vec *own,
                            const real *other, const int dimension)
 {
-    const vec power = artificial_factor(p->reach, c);
     vec s[6];
     for (int a = 0; a < 6; ++a) {
-        s[a] = (own[a] + other[a]) * power;
+        s[a] = own[a] + other[a];
+    }
+    const vec power = artificial_factor(p->reach, s[MOR_XX] + s[MOR_YY] + s[MOR_ZZ], c);
+    for (int a = 0; a < 6; ++a) {
+        s[a] *= power;
     }
     m->force[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
     m->force[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
