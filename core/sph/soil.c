@@ -143,9 +143,10 @@ static const mor_stage soil_stages[] = {
      NULL},
     {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
-    {"stress", mor_soil_advance_stress, BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS),
-     0, BIT(STRESS) | BIT(SEPARATION) | SHARED(STATE),
-     "stress and state by the material, where soil has not come apart", NULL},
+    {"stress", mor_soil_advance_stress,
+     BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS) | SHARED(MOMENTS), 0,
+     BIT(STRESS) | BIT(SEPARATION) | SHARED(STATE), "stress and state by the material, where soil has not come apart",
+     NULL},
     {"memory", mor_soil_remember,
      BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | SHARED(MOMENTS) |
          SHARED(WALL_SUMS) | SHARED(LISTS),

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdio.h>
 #include <string.h>
 
 /* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once. */
@@ -291,21 +290,6 @@ static void keep_failure(const mor_soil *soil, const mor_stress_update *it, cons
     }
 }
 
-enum { REASON_BYTES = 192 };
-
-static void describe_reason(mor_status status, bool is_silent, char *reason)
-{
-    if (status > MOR_OK) {
-        snprintf(reason, REASON_BYTES, "%s, after %d halvings of the step; a smaller 'courant' may help",
-                 mor_status_text(status), MOR_STRESS_HALVINGS);
-    } else if (is_silent) {
-        snprintf(reason, REASON_BYTES,
-                 "the law reported success, but left numbers that are not finite; correct the law");
-    } else {
-        snprintf(reason, REASON_BYTES, "%s", mor_status_text(status));
-    }
-}
-
 /* Does the failed batch again to learn which particle it was. */
 static mor_status report_stress(mor_context *context, const mor_soil *soil, const mor_stress_update *it,
                                 const mor_view *view, const mor_step *step, int64_t first, mor_soil_failure *failure)
@@ -322,8 +306,8 @@ static mor_status report_stress(mor_context *context, const mor_soil *soil, cons
     const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
     const double *s = mor_view_quote(view, MOR_FIELD_STRESS, i);
     keep_failure(soil, it, step, i, failure);
-    char reason[REASON_BYTES];
-    describe_reason(status, failed.is_silent, reason);
+    char reason[MOR_STRESS_REASON_BYTES];
+    mor_stress_describe_failure(status, &failed, reason);
     const mor_status told = MOR_FAIL(
         context, status < 0 ? status : MOR_ERROR_NUMERIC,
         "the stress update of material '%s' failed for particle %lld of set '%s' at (%.6g, %.6g, %.6g) m, "
@@ -349,6 +333,13 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
                                      .stress = mor_view_write(view, MOR_FIELD_STRESS),
                                      .separation = mor_view_write(view, MOR_FIELD_SEPARATION),
                                      .counts_lost = soil->settings.scheme.density_reinitialization > 0};
+    if (job.update.separation != NULL && soil->moments != NULL) {
+        job.update.moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+        job.update.dimension = soil->settings.dimension;
+        job.update.spread =
+            mor_stress_find_spread(soil->lattice_sum, soil->constants.kernel_normalization *
+                                                          pow(soil->settings.spacing, soil->settings.dimension));
+    }
     if (mor_soil_energy_is_due(soil, step)) {
         job.update.restored = soil->energy->restored;
         memset(soil->energy->restored, 0, (size_t)soil->set.n_particles * sizeof *soil->energy->restored);

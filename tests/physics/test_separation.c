@@ -101,9 +101,9 @@ static void sand_that_flies_apart_separates_by_its_volume(void **state)
     "  { name = 'back'; friction = 'smooth';"                                                                          \
     "    shape = { type = 'half_space'; point = (0, 0); normal = (1, 0); }; } );"                                      \
     "numerics = { " numerics " };"                                                                                     \
-    "probes = ( { name = 'drift'; type = 'density_drift'; percentile = 99.0; } );"
+    "probes = ( { name = 'drift'; type = 'density_drift'; percentile = 95.0; } );"
 
-/* The mean of runs with steps of unlike lengths: single ones differ by a quarter. */
+/* The mean of runs with steps of unlike lengths: single ones differ by a sixth. */
 static double largest_drift(const char *text)
 {
     static const char *const steps[][2] = {
@@ -185,14 +185,14 @@ static void pressure_that_diffuses_is_lost_compression(void **state)
     scene_free(it);
 }
 
-/* Found: 0.044 and 0.106 of the density; 0.055 where only what diffuses counts. Less than half is asked for. */
+/* Found: 0.013 and 0.039 of the density. Less than half is asked for. */
 static void soil_that_flows_over_a_floor_keeps_its_density(void **state)
 {
     (void)state;
     const double kept = largest_drift(COLLAPSE(""));
     const double lost = largest_drift(COLLAPSE("separation_memory = false;"));
     if (!(kept < 0.5 * lost)) {
-        fail_msg("density of one particle in a hundred off by %.3f and more, without the memory by %.3f", kept, lost);
+        fail_msg("density of one particle in twenty off by %.3f and more, without the memory by %.3f", kept, lost);
     }
 }
 

@@ -9,10 +9,8 @@
 
 #include <stdbool.h>
 
-/* SPARSE: mean of the moment below which neighbors are too few for a fit; FEW: from where on it is taken as it is.
- * FLAT, THIN: determinant of the moment over the cube (square) of its mean, likewise. */
-#define SPARSE 0.1
-#define FEW 0.2
+/* FLAT, THIN: determinant of the moment over the cube (square) of its mean below which there is no fit, and from where
+ * on it is taken as it is. */
 #define FLAT 0.02
 #define THIN 0.1
 /* Least part of the moment that the change of volume is taken to see: about that of a particle on an edge. */
@@ -66,9 +64,9 @@ INLINE void apply_symmetric(const vec *t, const vec *a, vec *out, const int dime
     }
 }
 
-/* Inverse of a moment, symmetric, blended with the unit tensor where neighbors are few or lie in a plane; in plane
- * strain its out-of-plane entry counts as one. */
-INLINE void invert_moment(const vec *m, const int dimension, vec *inverse)
+/* Inverse of a moment, symmetric, blended with the unit tensor as far as it is not trusted, and where neighbors lie in
+ * a plane; in plane strain its out-of-plane entry counts as one. */
+INLINE void invert_moment(const vec *m, vec trust, const int dimension, vec *inverse)
 {
     const vec trace = trace_of(m, dimension);
     const vec mean = dimension == 3 ? trace / 3.0 : 0.5 * trace;
@@ -77,8 +75,7 @@ INLINE void invert_moment(const vec *m, const int dimension, vec *inverse)
     vec c[6];
     const vec determinant = symmetric_cofactors(solid, c, dimension);
     const vec cube = dimension == 3 ? mean * mean * mean : mean * mean;
-    const vec share =
-        select_lanes(mean > SPARSE, fade(mean, SPARSE, FEW) * fade(determinant / cube, FLAT, THIN), broadcast(0.0));
+    const vec share = select_lanes(mean > MOR_FIT_SPARSE, trust * fade(determinant / cube, FLAT, THIN), broadcast(0.0));
     const vec part = select_lanes(share > 0.0, share / determinant, broadcast(0.0));
     for (int a = 0; a < 6; ++a) {
         inverse[a] = a < 3 ? (1.0 - share) + part * c[a] : part * c[a];
@@ -95,13 +92,16 @@ INLINE vec continue_volume(const vec *c, const vec *f, const int dimension)
 }
 
 /* Replaces the summed gradient, shape [9], 1/s, by the fit, but for its trace; returns the rate of change of the
- * volume, 1/s. closed, continued: moments with what boundaries close and continue of them, shape [6], 1; continued:
+ * volume, 1/s. Where neighbors are few it leaves the sum: the fit of a particle alone at a boundary would be that of
+ * the boundary, twice the rate that its force is the counterpart of, and a contact stiffer than the step allows.
+ * moment: over the soil; closed, continued: with what boundaries close and continue of it, shape [6], 1; continued:
  * NULL for none. */
-INLINE vec fit_gradient(const vec *closed, const vec *continued, vec *gradient, const int dimension)
+INLINE vec fit_gradient(const vec *moment, const vec *closed, const vec *continued, vec *gradient, const int dimension)
 {
+    const vec trust = fade(trace_of(moment, dimension) / (double)dimension, MOR_FIT_SPARSE, MOR_FIT_FEW);
     vec inverse[6];
     vec f[9];
-    invert_moment(closed, dimension, inverse);
+    invert_moment(closed, trust, dimension, inverse);
     for (int a = 0; a < dimension; ++a) {
         apply_symmetric(inverse, gradient + 3 * a, f + 3 * a, dimension);
     }
@@ -114,7 +114,8 @@ INLINE vec fit_gradient(const vec *closed, const vec *continued, vec *gradient, 
         volume += continue_volume(continued, f, dimension);
         sum += trace_of(continued, dimension);
     }
-    const vec scale = 1.0 / larger(sum / (double)dimension, broadcast(LEAST_CLOSED));
+    const vec fitted = 1.0 / larger(sum / (double)dimension, broadcast(LEAST_CLOSED));
+    const vec scale = 1.0 + trust * (fitted - 1.0);
     const vec excess = scale * volume - f[0] - f[4];
     const vec change = (dimension == 3 ? excess - f[8] : excess) / (double)dimension;
     for (int a = 0; a < 3 * dimension; ++a) {
@@ -152,9 +153,9 @@ INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimen
     if (job->at_wall[first / MOR_CLUSTER]) {
         load_moments(job->closed + 6 * first, dimension, closed);
         load_moments(job->continued + 6 * first, dimension, continued);
-        volume = fit_gradient(closed, continued, gradient, dimension);
+        volume = fit_gradient(moment, closed, continued, gradient, dimension);
     } else {
-        volume = fit_gradient(moment, NULL, gradient, dimension);
+        volume = fit_gradient(moment, moment, NULL, gradient, dimension);
     }
     store_first(job->gradient + 9 * first, 9, dimension == 3 ? 8 : 5, n_lanes, gradient);
     if (dimension == 3) {

@@ -4,6 +4,8 @@
 
 #include "core/sph/stress/separation.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { BATCH = MOR_STRESS_BATCH, HALVINGS = MOR_STRESS_HALVINGS };
@@ -83,6 +85,20 @@ static void find_seen(const mor_stress_update *it, int64_t first, int64_t n, see
     }
 }
 
+double mor_stress_find_spread(double lattice_sum, double alone)
+{
+    return mor_max(log(lattice_sum / alone), MOR_SEPARATION_ALONE);
+}
+
+/* Strain of separation that a particle may have, as many neighbors as it has, 1. */
+static double find_most(const mor_stress_update *it, int64_t i)
+{
+    const double *m = it->moments + 6 * i;
+    const double mean = (m[0] + m[1] + (it->dimension == 3 ? m[2] : 0.0)) / it->dimension;
+    const double share = mor_min(mor_max(mean / MOR_FIT_FEW, 0.0), 1.0);
+    return MOR_SEPARATION_ALONE + share * (it->spread - MOR_SEPARATION_ALONE);
+}
+
 /* Adds what has opened, and what compression is lost by diffusion.
  *  start: shape [n, 6], stress before the step, Pa */
 static void keep_separation(const mor_stress_update *it, int64_t first, int64_t n, const seen *s, const double *start)
@@ -97,6 +113,9 @@ static void keep_separation(const mor_stress_update *it, int64_t first, int64_t 
         }
         it->separation[i] =
             kept + mor_separation_open(find_strain(it, i), start + 6 * k, it->stress + 6 * i, diffused, stiffness);
+        if (it->moments != NULL && it->separation[i] > MOR_SEPARATION_ALONE) {
+            it->separation[i] = mor_min(it->separation[i], find_most(it, i));
+        }
     }
 }
 
@@ -218,4 +237,17 @@ mor_status mor_stress_find_crash(const mor_stress_update *it, int64_t first, int
         }
     }
     return MOR_ERROR_CRASH;
+}
+
+void mor_stress_describe_failure(mor_status status, const mor_stress_failed *failed, char *reason)
+{
+    enum { BYTES = MOR_STRESS_REASON_BYTES };
+    if (status > MOR_OK) {
+        snprintf(reason, BYTES, "%s, after %d halvings of the step; a smaller 'courant' may help",
+                 mor_status_text(status), HALVINGS);
+    } else if (failed->is_silent) {
+        snprintf(reason, BYTES, "the law reported success, but left numbers that are not finite; correct the law");
+    } else {
+        snprintf(reason, BYTES, "%s", mor_status_text(status));
+    }
 }

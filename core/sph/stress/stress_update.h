@@ -15,8 +15,9 @@
  *  and soil that has come apart or lost compression. */
 
 /** MOR_STRESS_BATCH: particles handed to a material at once. MOR_STRESS_HALVINGS: how often a batch may ask for a
- *  smaller step before the run stops. MOR_STRESS_SOILS_MAX: soils. */
-enum { MOR_STRESS_BATCH = 128, MOR_STRESS_HALVINGS = 8, MOR_STRESS_SOILS_MAX = 16 };
+ *  smaller step before the run stops. MOR_STRESS_SOILS_MAX: soils.
+ *  MOR_STRESS_REASON_BYTES: of a reason, with its end. */
+enum { MOR_STRESS_BATCH = 128, MOR_STRESS_HALVINGS = 8, MOR_STRESS_SOILS_MAX = 16, MOR_STRESS_REASON_BYTES = 192 };
 
 /** What the update reads and writes. Borrowed. */
 typedef struct mor_stress_update {
@@ -33,6 +34,10 @@ typedef struct mor_stress_update {
     double *separation;                      /* shape [n]; volumetric strain of separation, 1; NULL: none is kept */
     double *restored;                        /* shape [n]; written where soil has lost compression: volumetric strain
                                               * that the law sees beside that of the motion, <= 0, 1; NULL: not asked */
+    const double *moments;                   /* shape [n, 6]; of the kernel over the soil, 1; NULL: separation is not
+                                              * bounded by what neighbors are seen */
+    int dimension;                           /* 2 or 3; where there are moments */
+    double spread;                           /* mor_stress_find_spread; where there are moments, 1 */
     bool counts_lost;                        /* compression that is lost by diffusion counts; needs summed densities */
     double *state[MOR_MATERIAL_STATES_MAX];  /* shape [n_state][n, width]; units of the law's schema */
 } mor_stress_update;
@@ -57,6 +62,18 @@ mor_status mor_stress_advance(const mor_stress_update *it, int64_t first, int64_
  *  @param failed [out]  one object
  *  Returns: what the first failure returned. */
 mor_status mor_stress_find_crash(const mor_stress_update *it, int64_t first, int64_t n, mor_stress_failed *failed);
+
+/** Writes why an update failed.
+ *  @param status [in]   of the update, not MOR_OK
+ *  @param failed [in]   one object
+ *  @param reason [out]  shape [MOR_STRESS_REASON_BYTES] */
+void mor_stress_describe_failure(mor_status status, const mor_stress_failed *failed, char *reason);
+
+/** Returns the strain of separation at which particles of a lattice see each other no more: what is left of the kernel
+ *  sum is that of one alone. Not below MOR_SEPARATION_ALONE. Unit 1.
+ *  @param lattice_sum [in]  kernel sum of the lattice, > 0, 1
+ *  @param alone       [in]  that of one of its particles, > 0, 1 */
+double mor_stress_find_spread(double lattice_sum, double alone);
 
 /** Finds what the law sees of the step of a particle, where it has come apart: less than all.
  *  @param i                 [in]   particle

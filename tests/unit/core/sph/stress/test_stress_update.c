@@ -275,6 +275,40 @@ static void sums_tell_lost_compression_within_the_density(void **state)
     assert_true(mor_separation_correct(MOR_SEPARATION_UNKNOWN, 1.3, 1.3) == 0.0);
 }
 
+/* A particle separates by no more than what closes it on its way to a face, with many neighbors by what a lattice takes
+ * to lose sight of itself; in between it hangs on no rounding of a moment. */
+static void separation_is_bounded_by_the_neighbors_that_are_seen(void **state)
+{
+    (void)state;
+    const double spread = mor_stress_find_spread(1.0, exp(-1.7));
+    assert_true(fabs(spread - 1.7) < 1e-15); /* rounding */
+    assert_true(mor_stress_find_spread(1.0, 0.5) == MOR_SEPARATION_ALONE);
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        double moments[6 * N] = {0.0};
+        double least = MOR_SEPARATION_ALONE;
+        sample s;
+        open_sample(&s, 0.5, 0.0, true);
+        s.update.moments = moments;
+        s.update.dimension = dimension;
+        s.update.spread = spread;
+        for (int k = 0; k <= 100; ++k) {
+            for (int a = 0; a < 3; ++a) {
+                moments[6 * 2 + a] = a < dimension ? 0.005 * k : 1e3;
+            }
+            s.separation[2] = 0.5;
+            strain(&s, 2, 3.0, 0.0);
+            assert_true(k > 0 || fabs(s.separation[2] - MOR_SEPARATION_ALONE) < 1e-12);
+            assert_true(0.005 * k < MOR_FIT_FEW || fabs(s.separation[2] - spread) < 1e-12);
+            assert_true(s.separation[2] >= least && s.separation[2] < least + 0.02); /* (1.7 - 1) 0.005 / 0.3 */
+            least = s.separation[2];
+            s.separation[2] = 0.5;
+            strain(&s, 2, 0.25, 0.0);
+            assert_true(fabs(s.separation[2] - 0.75) < 1e-12); /* what is within the bound stays */
+        }
+        law_point_close(&s.law);
+    }
+}
+
 /* The speed of sound may be that of stiffer soil: tension that is elastic is none of separation. */
 static void elastic_tension_of_soil_softer_than_told_is_no_separation(void **state)
 {
@@ -304,6 +338,7 @@ int main(void)
         cmocka_unit_test(pressure_and_lost_compression_add_up_to_the_compression),
         cmocka_unit_test(losses_count_only_where_densities_are_summed),
         cmocka_unit_test(sums_tell_lost_compression_within_the_density),
+        cmocka_unit_test(separation_is_bounded_by_the_neighbors_that_are_seen),
         cmocka_unit_test(elastic_tension_of_soil_softer_than_told_is_no_separation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
