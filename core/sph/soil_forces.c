@@ -323,23 +323,21 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
 {
     mor_soil *soil = owner;
     stress_job job = {.asleep = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
-    job.update = (mor_stress_update){.material = soil->material,
-                                     .guard = soil->settings.guard,
-                                     .length = step->length,
-                                     .of_soil = soil->of_soil,
-                                     .density = mor_view_read(view, MOR_FIELD_DENSITY),
-                                     .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
-                                     .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
-                                     .stress = mor_view_write(view, MOR_FIELD_STRESS),
-                                     .separation = mor_view_write(view, MOR_FIELD_SEPARATION),
-                                     .counts_lost = soil->settings.scheme.density_reinitialization > 0};
-    if (job.update.separation != NULL && soil->moments != NULL) {
-        job.update.moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-        job.update.dimension = soil->settings.dimension;
-        job.update.spread =
-            mor_stress_find_spread(soil->lattice_sum, soil->constants.kernel_normalization *
-                                                          pow(soil->settings.spacing, soil->settings.dimension));
-    }
+    job.update = (mor_stress_update){
+        .material = soil->material,
+        .guard = soil->settings.guard,
+        .length = step->length,
+        .of_soil = soil->of_soil,
+        .density = mor_view_read(view, MOR_FIELD_DENSITY),
+        .velocity_gradient = mor_view_read(view, MOR_FIELD_VELOCITY_GRADIENT),
+        .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
+        .stress = mor_view_write(view, MOR_FIELD_STRESS),
+        .separation = mor_view_write(view, MOR_FIELD_SEPARATION),
+        .moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments),
+        .dimension = soil->settings.dimension,
+        .spread = mor_stress_find_spread(soil->lattice_sum, soil->constants.kernel_normalization *
+                                                                pow(soil->settings.spacing, soil->settings.dimension)),
+        .counts_lost = soil->settings.scheme.density_reinitialization > 0};
     if (mor_soil_energy_is_due(soil, step)) {
         job.update.restored = soil->energy->restored;
         memset(soil->energy->restored, 0, (size_t)soil->set.n_particles * sizeof *soil->energy->restored);

@@ -9,8 +9,16 @@
 
 #include <stdbool.h>
 
-/* FLAT, THIN: determinant of the moment over the cube (square) of its mean below which there is no fit, and from where
+/* SPARSE: mean of the moment below which neighbors are too few for a fit; FEW: from where on it is taken as it is.
+ * ALONE, AMONG: likewise over the soil alone, of a particle at a boundary; it is 0.3 in the corner of a block. CLOSE:
+ * mean of the moment over boundaries from where on a particle is at one.
+ * FLAT, THIN: determinant of the moment over the cube (square) of its mean below which there is no fit, and from where
  * on it is taken as it is. */
+#define SPARSE 0.1
+#define FEW 0.2
+#define ALONE 0.15
+#define AMONG 0.3
+#define CLOSE 0.1
 #define FLAT 0.02
 #define THIN 0.1
 /* Least part of the moment that the change of volume is taken to see: about that of a particle on an edge. */
@@ -75,7 +83,8 @@ INLINE void invert_moment(const vec *m, vec trust, const int dimension, vec *inv
     vec c[6];
     const vec determinant = symmetric_cofactors(solid, c, dimension);
     const vec cube = dimension == 3 ? mean * mean * mean : mean * mean;
-    const vec share = select_lanes(mean > MOR_FIT_SPARSE, trust * fade(determinant / cube, FLAT, THIN), broadcast(0.0));
+    const vec few = fade(mean, SPARSE, FEW);
+    const vec share = select_lanes(mean > SPARSE, trust * few * fade(determinant / cube, FLAT, THIN), broadcast(0.0));
     const vec part = select_lanes(share > 0.0, share / determinant, broadcast(0.0));
     for (int a = 0; a < 6; ++a) {
         inverse[a] = a < 3 ? (1.0 - share) + part * c[a] : part * c[a];
@@ -98,9 +107,14 @@ INLINE vec continue_volume(const vec *c, const vec *f, const int dimension)
  * NULL for none. */
 INLINE vec fit_gradient(const vec *moment, const vec *closed, const vec *continued, vec *gradient, const int dimension)
 {
-    const vec trust = fade(trace_of(moment, dimension) / (double)dimension, MOR_FIT_SPARSE, MOR_FIT_FEW);
     vec inverse[6];
     vec f[9];
+    vec trust = broadcast(1.0);
+    if (continued != NULL) {
+        const vec own = trace_of(moment, dimension) / (double)dimension;
+        const vec all = (trace_of(closed, dimension) + trace_of(continued, dimension)) / (double)dimension;
+        trust -= fade(all - own, 0.0, CLOSE) * (1.0 - fade(own, ALONE, AMONG));
+    }
     invert_moment(closed, trust, dimension, inverse);
     for (int a = 0; a < dimension; ++a) {
         apply_symmetric(inverse, gradient + 3 * a, f + 3 * a, dimension);

@@ -17,11 +17,6 @@
  *  the processor has.
  *  Theory: Zhang et al. (2024) eqs. 15-31, with the corrections listed in docs/theory/soil.md. */
 
-/** Mean moment of the kernel over the soil, 1, below which a particle is alone, so that nothing is fitted, and from
- *  which on it has neighbors: the nearest one on a lattice adds 0.045 in space, 0.12 in plane strain. */
-#define MOR_FIT_SPARSE 0.15
-#define MOR_FIT_FEW 0.3
-
 /** What a pair loop reads of a particle, in one record of 16 doubles. The first eight fill one cache line. */
 enum {
     MOR_RECORD_POSITION = 0,  /* 3, m */

@@ -95,7 +95,7 @@ static double find_most(const mor_stress_update *it, int64_t i)
 {
     const double *m = it->moments + 6 * i;
     const double mean = (m[0] + m[1] + (it->dimension == 3 ? m[2] : 0.0)) / it->dimension;
-    const double share = mor_min(mor_max(mean / MOR_FIT_FEW, 0.0), 1.0);
+    const double share = mor_min(mor_max(mean / MOR_SEPARATION_FEW, 0.0), 1.0);
     return MOR_SEPARATION_ALONE + share * (it->spread - MOR_SEPARATION_ALONE);
 }
 

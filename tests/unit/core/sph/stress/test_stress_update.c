@@ -298,7 +298,7 @@ static void separation_is_bounded_by_the_neighbors_that_are_seen(void **state)
             s.separation[2] = 0.5;
             strain(&s, 2, 3.0, 0.0);
             assert_true(k > 0 || fabs(s.separation[2] - MOR_SEPARATION_ALONE) < 1e-12);
-            assert_true(0.005 * k < MOR_FIT_FEW || fabs(s.separation[2] - spread) < 1e-12);
+            assert_true(0.005 * k < MOR_SEPARATION_FEW || fabs(s.separation[2] - spread) < 1e-12);
             assert_true(s.separation[2] >= least && s.separation[2] < least + 0.02); /* (1.7 - 1) 0.005 / 0.3 */
             least = s.separation[2];
             s.separation[2] = 0.5;
