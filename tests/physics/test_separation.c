@@ -103,7 +103,7 @@ static void sand_that_flies_apart_separates_by_its_volume(void **state)
     "numerics = { " numerics " };"                                                                                     \
     "probes = ( { name = 'drift'; type = 'density_drift'; percentile = 95.0; } );"
 
-/* The mean of runs with steps of unlike lengths: single ones differ by a sixth. */
+/* The mean of runs with steps of unlike lengths: single ones differ by a quarter. */
 static double largest_drift(const char *text)
 {
     static const char *const steps[][2] = {
