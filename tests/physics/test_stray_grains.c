@@ -36,8 +36,8 @@ static double largest_energy(const scene *it)
 }
 
 /* On level ground nothing gives a grain energy but its neighbors, which have no more. A hundredth is for what they
- * hand on. Where the contact of a grain that is alone was twice as stiff, energies grew 2.3 times with 0.6, 15 times with
- * 0.7, and not with 0.3. */
+ * hand on. Where the contact of a grain that is alone was twice as stiff, energies grew 2.3 times with 0.6, 15
+ * times with 0.7, and not with 0.3. */
 static void grains_gain_no_energy_from_the_ground(void **state)
 {
     (void)state;

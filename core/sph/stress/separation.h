@@ -20,11 +20,12 @@
  *  elastic expansion, over stiffness times strain, 1: K / (K + 4 G / 3) is a third and more, and soil may be up to
  *  fifteen times softer than the speed of sound of its law tells. MOR_SEPARATION_SLACK: largest separation over the
  *  part of the density that is missing, 1. MOR_SEPARATION_ALONE: largest separation of a particle without neighbors,
- *  1: what a wall closes between the end of its support and its face, twice half of the kernel. MOR_SEPARATION_FEW: mean
- *  moment of the kernel over the soil from which on it has neighbors, 1: the nearest one on a lattice adds 0.045 in
- *  space, 0.12 in plane strain. MOR_SEPARATION_LOST: lost compression up to which nothing is restored, 1: sums over disordered neighbors scatter by some percent. MOR_SEPARATION_RESTORED: part of what goes beyond that is
- *  restored in a step, 1; a wave crosses a particle in a few. MOR_SEPARATION_UNKNOWN: value at the start, 1, until a
- *  density was found by summation, which tells how particles were placed, at walls above all; then losses count. */
+ *  1: what a wall closes between the end of its support and its face, twice half of the kernel. MOR_SEPARATION_FEW:
+ *  mean moment of the kernel over the soil from which on it has neighbors, 1: the nearest one on a lattice adds 0.045
+ *  in space, 0.12 in plane strain. MOR_SEPARATION_LOST: lost compression up to which nothing is restored, 1: sums over
+ *  disordered neighbors scatter by some percent. MOR_SEPARATION_RESTORED: part of what goes beyond that is restored in
+ *  a step, 1; a wave crosses a particle in a few. MOR_SEPARATION_UNKNOWN: value at the start, 1, until a density was
+ *  found by summation, which tells how particles were placed, at walls above all; then losses count. */
 #define MOR_SEPARATION_ZERO 1.0e-13
 #define MOR_SEPARATION_ELASTIC 0.02
 #define MOR_SEPARATION_SLACK 10.0
