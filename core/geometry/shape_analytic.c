@@ -335,6 +335,24 @@ bool mor_shape_project(const mor_shape *shape, double height, double step, doubl
     return mor_vector_length(normal) > 0.5 && fabs(mor_shape_distance(shape, point) - height) < step;
 }
 
+/* Advances by the distance that is certainly free. */
+bool mor_shape_meets_ray(const mor_shape *shape, const double *from, const double *direction, double reach,
+                         double touch)
+{
+    enum { STEPS_MAX = 400 };
+    double way = 0.0;
+    for (int step = 0; step < STEPS_MAX && way < reach; ++step) {
+        double point[3];
+        mor_vector_advance(from, way, direction, point);
+        const double free_way = mor_shape_distance(shape, point) / MOR_SHAPE_SLOPE_MOST;
+        if (free_way < touch) {
+            return true;
+        }
+        way += free_way;
+    }
+    return false;
+}
+
 void mor_shape_exact_normal(const mor_shape *shape, const double *point, double step, double *normal)
 {
     find_normal(shape, mor_shape_exact_distance, point, step, normal);

@@ -191,6 +191,15 @@ void mor_shape_normal(const mor_shape *shape, const double *point, double step, 
  *  Returns: whether it converged. Threads: safe to call concurrently. */
 bool mor_shape_project(const mor_shape *shape, double height, double step, double *point, double *normal);
 
+/** Returns whether a ray meets a shape; not where it still grazes the surface after some hundred steps.
+ *  @param from      [in]  shape [3]; unit m
+ *  @param direction [in]  shape [3]; unit vector, 1
+ *  @param reach     [in]  unit m; length of the ray; nothing is met where it is <= 0
+ *  @param touch     [in]  unit m; a ray this near to the surface meets it; > 0
+ *  Cost: some distances. Threads: safe to call concurrently. */
+bool mor_shape_meets_ray(const mor_shape *shape, const double *from, const double *direction, double reach,
+                         double touch);
+
 /** Writes the normal as mor_shape_normal, from exact distances.
  *  @param point  [in]   shape [3]; unit m
  *  @param step   [in]   unit m; half the width of the differences; > 0

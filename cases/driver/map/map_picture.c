@@ -4,6 +4,7 @@
 
 #include "cases/driver/map/map_classes.h"
 #include "cases/driver/map/map_relief.h"
+#include "cases/driver/map/map_structures.h"
 #include "cases/driver/picture/draw/ticks.h"
 #include "core/base/memory.h"
 #include "core/io/durable_file.h"
@@ -22,6 +23,9 @@ static const double text_size = 20.0;
 static const double text_gray = 0.15;
 static const double note_gray = 0.35;
 
+/* Of structures, over all else. */
+static const double structure_color[3] = {0.75, 0.16, 0.13};
+
 /* How much of a color is seen over the ground, and how dark the ground is in shadow. */
 static const double opacity = 0.8;
 static const double shadow = 0.35;
@@ -29,7 +33,9 @@ static const double shadow = 0.35;
 /* One picture while it is drawn. */
 typedef struct sheet {
     const mor_map_picture *picture;
-    double *light; /* of the ground; owned; NULL: there is none */
+    double *light;    /* of the ground; owned; NULL: there is none */
+    uint8_t *covered; /* pixels where structures stand; owned; NULL: there are none */
+    double interval;  /* of the contours, m; 0: there are none */
     mor_map_classes classes;
     double largest; /* value of the map; NaN: none */
     mor_canvas *canvas;
@@ -77,9 +83,11 @@ static mor_status draw_cells(mor_context *context, const sheet *s)
     for (int y = 0; y < size[1]; ++y) {
         for (int x = 0; x < size[0]; ++x) {
             double color[3];
+            const int64_t pixel = (int64_t)y * size[0] + x;
             find_color(s, (x + 0.5) / size[0] * map->n[0], (y + 0.5) / size[1] * map->n[1], color);
+            const double *seen = s->covered != NULL && s->covered[pixel] != 0 ? structure_color : color;
             for (int a = 0; a < 3; ++a) {
-                rgb[3 * ((int64_t)y * size[0] + x) + a] = (uint8_t)lround(255.0 * fmin(fmax(color[a], 0.0), 1.0));
+                rgb[3 * pixel + a] = (uint8_t)lround(255.0 * fmin(fmax(seen[a], 0.0), 1.0));
             }
         }
     }
@@ -102,6 +110,14 @@ static void write_line(sheet *s, double left, const char *text, double gray, boo
     s->next += 1.6 * text_size;
 }
 
+static void write_swatch(sheet *s, const double *color, const char *text)
+{
+    const double swatch[4] = {s->legend, s->next - 0.75 * text_size, 2.2 * text_size, 1.5 * text_size};
+    const mor_canvas_pen fill = {.color = {color[0], color[1], color[2]}, .opacity = 1.0};
+    mor_canvas_rectangle(s->canvas, swatch, &fill);
+    write_line(s, s->legend + 2.8 * text_size, text, text_gray, false);
+}
+
 static void draw_legend(sheet *s)
 {
     char unit[MOR_TICKS_TEXT_BYTES];
@@ -112,11 +128,8 @@ static void draw_legend(sheet *s)
     snprintf(line, sizeof line, is_count ? "%s" : "%s [%s]", s->picture->kind->title, unit);
     write_line(s, s->legend, line, text_gray, true);
     for (int k = it->n - 1; k >= 0; --k) {
-        const double swatch[4] = {s->legend, s->next - 0.75 * text_size, 2.2 * text_size, 1.5 * text_size};
-        const mor_canvas_pen fill = {.color = {it->colors[k][0], it->colors[k][1], it->colors[k][2]}, .opacity = 1.0};
-        mor_canvas_rectangle(s->canvas, swatch, &fill);
         mor_map_classes_label(s->picture->kind, it, k, factor, line);
-        write_line(s, s->legend + 2.8 * text_size, line, text_gray, false);
+        write_swatch(s, it->colors[k], line);
     }
     s->next += 0.4 * text_size;
     if (isfinite(s->largest)) {
@@ -128,6 +141,9 @@ static void draw_legend(sheet *s)
     }
     if (!s->picture->kind->is_early_dark) {
         write_line(s, s->legend, "0: without color", text_gray, false);
+    }
+    if (s->covered != NULL) {
+        write_swatch(s, structure_color, "structures");
     }
 }
 
@@ -167,7 +183,7 @@ static void draw_north(sheet *s)
     s->next += 0.6 * text_size;
 }
 
-static void draw_side(sheet *s, double interval)
+static void draw_side(sheet *s)
 {
     char line[MOR_TICKS_LABEL_BYTES];
     s->next = head + 0.5 * text_size;
@@ -182,8 +198,8 @@ static void draw_side(sheet *s, double interval)
         draw_north(s);
         write_line(s, s->legend, "light from the north-west", note_gray, false);
     }
-    if (interval > 0.0) {
-        snprintf(line, sizeof line, "contours every %g m", interval);
+    if (s->interval > 0.0) {
+        snprintf(line, sizeof line, "contours every %g m", s->interval);
         write_line(s, s->legend, line, note_gray, false);
     }
 }
@@ -225,6 +241,20 @@ static void lay_out(sheet *s, int *size)
     size[1] = (int)fmax(head + height + mor_axes_lower_room(text_size) + 12.0, least_height);
 }
 
+/* Draws what stands beside the map, and the contours, once outside of any picture, to find the height they take. */
+static mor_status measure_side(mor_context *context, sheet *s, int *height)
+{
+    const mor_terrain_raster *ground = s->picture->ground;
+    mor_status status = mor_canvas_new(context, &s->canvas, 1, 1);
+    if (status == MOR_OK) {
+        s->interval = ground != NULL ? mor_map_relief_contours(s->canvas, ground, s->base, &s->axes) : 0.0;
+        draw_side(s);
+        *height = (int)fmax(*height, ceil(s->next));
+    }
+    mor_canvas_free(context, &s->canvas);
+    return status;
+}
+
 static void draw_head(const sheet *s, double width)
 {
     const mor_map_picture *picture = s->picture;
@@ -257,12 +287,19 @@ static mor_status draw_sheet(mor_context *context, sheet *s)
     if (ground != NULL) {
         MOR_TRY(context, mor_map_relief_light(context, ground, &s->light));
     }
+    if (s->picture->the_case != NULL) {
+        const int pixels[2] = {(int)s->axes.rectangle[2], (int)s->axes.rectangle[3]};
+        MOR_TRY(context, mor_map_structures_find(context, s->picture->the_case, pixels, &s->covered));
+    }
+    MOR_TRY(context, measure_side(context, s, &size[1]));
     MOR_TRY(context, mor_canvas_new(context, &s->canvas, size[0], size[1]));
     MOR_TRY(context, draw_cells(context, s));
-    const double interval = ground != NULL ? mor_map_relief_contours(s->canvas, ground, s->base, &s->axes) : 0.0;
+    if (ground != NULL) {
+        mor_map_relief_contours(s->canvas, ground, s->base, &s->axes);
+    }
     mor_axes_draw(s->canvas, &s->axes);
     draw_head(s, size[0]);
-    draw_side(s, interval);
+    draw_side(s);
     return mor_canvas_check(context, s->canvas);
 }
 
@@ -275,6 +312,7 @@ mor_status mor_map_picture_write(mor_context *context, const mor_map_picture *pi
     }
     mor_canvas_free(context, &s.canvas);
     MOR_FREE(context, &s.light);
+    MOR_FREE(context, &s.covered);
     return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
 }
 
@@ -319,7 +357,8 @@ static mor_status draw_map(mor_context *context, const mor_case *the_case, const
                                          .note = note,
                                          .kind = kind,
                                          .map = &map,
-                                         .ground = is_over_ground ? ground : NULL};
+                                         .ground = is_over_ground ? ground : NULL,
+                                         .the_case = the_case};
         status = mor_map_picture_write(context, &picture, path);
         if (status == MOR_OK) {
             fprintf(output, "map: %s\n", path);

@@ -11,7 +11,7 @@
 
 /** @file
  *  Pictures of the maps in the folder of a run: values in classes of color over the light and the contours of the
- *  ground, with coordinates, a legend and a scale. */
+ *  ground, with structures that stand on it, coordinates, a legend and a scale. */
 
 /** What a picture shows. Strings are zero-terminated. */
 typedef struct mor_map_picture {
@@ -21,6 +21,7 @@ typedef struct mor_map_picture {
     const mor_map_kind *kind;
     const mor_terrain_raster *map;    /* of that kind */
     const mor_terrain_raster *ground; /* heights of the ground in the same cells; NULL: none */
+    const mor_case *the_case;         /* whose structures are drawn; NULL: none are */
 } mor_map_picture;
 
 /** Draws one map.

@@ -18,8 +18,8 @@
 /* A ray this near to a surface, in spacings, hits it. */
 #define TOUCH 0.1
 
-/* Points along each axis from which rays are cast to the viewer; steps of a ray, after which it only grazes. */
-enum { PLACES = 8, STEPS_MAX = 400 };
+/* Points along each axis from which rays are cast to the viewer. */
+enum { PLACES = 8 };
 
 void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t n, double half)
 {
@@ -134,22 +134,6 @@ bool mor_picture_wall_is_structure(const mor_case *the_case, int wall, const mor
     return !surrounds(&own, moving, the_case->dimension, up) && find_size(&both) <= LARGEST_GROWTH * find_size(moving);
 }
 
-/* Advances along a ray by the distance that is certainly free. */
-static bool is_met(const mor_shape *shape, const double *from, const double *direction, double reach, double touch)
-{
-    double way = 0.0;
-    for (int step = 0; step < STEPS_MAX && way < reach; ++step) {
-        const double point[3] = {from[0] + way * direction[0], from[1] + way * direction[1],
-                                 from[2] + way * direction[2]};
-        const double free_way = mor_shape_distance(shape, point) / MOR_SHAPE_SLOPE_MOST;
-        if (free_way < touch) {
-            return true;
-        }
-        way += free_way;
-    }
-    return false;
-}
-
 bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds *moving, const double *toward)
 {
     const mor_shape *shape = the_case->walls[wall].shape;
@@ -175,7 +159,7 @@ bool mor_picture_wall_hides(const mor_case *the_case, int wall, const mor_bounds
         }
         if (mor_shape_distance(shape, from) > 0.0) { /* else no particle can be here */
             n_free += 1;
-            n_hidden += is_met(shape, from, direction, mor_vector_dot(beyond, direction), touch);
+            n_hidden += mor_shape_meets_ray(shape, from, direction, mor_vector_dot(beyond, direction), touch);
         }
     }
     return n_hidden > HIDDEN_SHARE * n_free;
