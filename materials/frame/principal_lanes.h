@@ -98,7 +98,9 @@ static MOR_LANES_INLINE void mor_principal_find_angle(const double *pp, const do
     for (int lane = 0; lane < MOR_LANES; ++lane) {
         const float difference = (float)(qq[lane] - pp[lane]);
         const float twice = (float)(2.0 * pq[lane]);
-        const float root = fabsf(difference) + sqrtf(difference * difference + twice * twice);
+        const float sum = fabsf(difference) + sqrtf(difference * difference + twice * twice);
+        const float size = fabsf(twice);
+        const float root = sum > size ? sum : size; /* squares may be too small for single precision */
         const float t = (difference >= 0.0F ? twice : -twice) / (root > 0.0F ? root : 1.0F);
         tangent[lane] = (double)t;
         cosine[lane] = (double)(1.0F / sqrtf(1.0F + t * t));
