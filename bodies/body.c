@@ -55,6 +55,7 @@ static mor_status allocate_group(mor_context *context, mor_body_group *group, in
     MOR_TRY(context, MOR_NEW(context, &group->volume, n, "volumes of body particles"));
     MOR_TRY(context, MOR_NEW(context, &group->body_of, n, "bodies of particles"));
     MOR_TRY(context, MOR_NEW(context, &group->start, 3 * n, "positions of bodies at the start of a step"));
+    MOR_TRY(context, MOR_NEW(context, &group->begin_velocity, 3 * n, "velocities of bodies at the start of a step"));
     MOR_TRY(context, MOR_NEW(context, &group->mean_velocity, 3 * n, "mean velocities of bodies over a step"));
     group->boundary.mean_velocity = group->mean_velocity;
     MOR_TRY(context, MOR_NEW(context, &group->bodies, group->n_bodies, "bodies"));
@@ -241,6 +242,7 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group)
     MOR_FREE(context, &group->body_of);
     MOR_FREE(context, &group->contact_force);
     MOR_FREE(context, &group->start);
+    MOR_FREE(context, &group->begin_velocity);
     MOR_FREE(context, &group->mean_velocity);
     MOR_FREE(context, &group->bodies);
     MOR_FREE(context, &group->pieces);
@@ -272,7 +274,6 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
         mor_body *body = &group->bodies[b];
         memcpy(body->begin_velocity, body->velocity, sizeof body->velocity);
         memcpy(body->begin_angular_velocity, body->angular_velocity, sizeof body->angular_velocity);
-        memcpy(body->begin_rate, body->rate, sizeof body->rate);
     }
     MOR_PARALLEL_FOR (&team, p, group->is_unseen ? 0 : group->n_pieces, 1) {
         const mor_body_piece *piece = &group->pieces[p];
@@ -283,36 +284,25 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
             double *record = group->boundary.records + i * MOR_BOUNDARY_RECORD + MOR_BOUNDARY_POSITION;
             for (int a = 0; a < 3; ++a) {
                 group->start[3 * i + a] = position[3 * i + a];
+                group->begin_velocity[3 * i + a] = velocity[3 * i + a];
                 record[a] = position[3 * i + a] + 0.5 * length * velocity[3 * i + a];
             }
         }
     }
 }
 
-/* Velocity of a particle of an elastic body that the soil sees: its mean over the step, and what the linear part of the
- * body's motion gained beyond it. docs/theory/coupling.md, C6b. */
-static void find_seen_velocity(const mor_body_group *group, const mor_body *body, int64_t i, double *seen)
+/* Velocity of a particle of an elastic body that the soil sees: half of it that at the end of the step, half the
+ * mean over the step without its lag. docs/theory/coupling.md, C6b. */
+static double find_seen_velocity(double begin, double mean, double end)
 {
-    const double *mean = group->mean_velocity + 3 * i;
-    const double half = body->is_clamped ? 0.0 : 0.5;
-    const double *center = group->reference_centers + 3 * (body - group->bodies);
-    double arm[3];
-    for (int a = 0; a < 3; ++a) {
-        arm[a] = group->reference[3 * i + a] - center[a];
-    }
-    for (int a = 0; a < 3; ++a) {
-        double gain = body->velocity[a] - body->begin_velocity[a];
-        for (int b = 0; b < 3; ++b) {
-            gain += (body->rate[3 * a + b] - body->begin_rate[3 * a + b]) * arm[b];
-        }
-        seen[a] = mean[a] + half * gain;
-    }
+    return 0.5 * (end + mean) + 0.25 * (end - begin);
 }
 
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length)
 {
     const double *position = group->set.data[MOR_FIELD_POSITION];
     const double *velocity = group->set.data[MOR_FIELD_VELOCITY];
+    const bool is_deformable = group->operations->is_deformable;
     if (group->is_unseen) {
         return;
     }
@@ -326,11 +316,7 @@ void mor_body_group_finish(mor_context *context, mor_body_group *group, double l
             double *mean = group->mean_velocity + 3 * i;
             for (int a = 0; a < 3; ++a) {
                 mean[a] = (position[3 * i + a] - group->start[3 * i + a]) / length;
-            }
-            if (group->operations->is_deformable) {
-                find_seen_velocity(group, &group->bodies[piece->body], i, seen);
-            } else {
-                memcpy(seen, v, 3 * sizeof *seen);
+                seen[a] = is_deformable ? find_seen_velocity(group->begin_velocity[3 * i + a], mean[a], v[a]) : v[a];
             }
             fastest = fmax(fastest, fmax(mor_vector_dot(seen, seen), mor_vector_dot(v, v)));
         }
@@ -365,7 +351,6 @@ static void sum_piece(const mor_body_group *group, const mor_body_piece *piece, 
         for (int a = 0; a < 3; ++a) {
             for (int b = 0; b < 3; ++b) {
                 s.map[3 * a + b] += d[a] * reference[b];
-                s.rate[3 * a + b] += w[a] * reference[b];
             }
             s.spread[a] += d[a] * d[a];
             s.spread[3 + a] += d[a] * d[(a + 1) % 3];
@@ -442,14 +427,12 @@ static void observe_body(mor_body_group *group, int b, const mor_body_sums *sums
         body->velocity[a] = group->set.data[MOR_FIELD_VELOCITY][3 * body->first + a] + sums->velocity[a] / n;
     }
     find_spin(group, sums, n, spin);
-    memset(body->rate, 0, sizeof body->rate);
     for (int a = 0; a < 3; ++a) {
         body->rotation_angle[a] += 0.5 * length * (body->angular_velocity[a] + spin[a]);
         body->angular_velocity[a] = spin[a];
         for (int c = 0; c < 3; ++c) {
             for (int k = 0; k < 3; ++k) {
                 map[3 * a + c] += sums->map[3 * a + k] * spread[3 * k + c];
-                body->rate[3 * a + c] += sums->rate[3 * a + k] * spread[3 * k + c];
             }
         }
     }
@@ -468,7 +451,6 @@ static void add_sums(const mor_body_sums *part, mor_body_sums *sums)
     }
     for (int k = 0; k < 9; ++k) {
         sums->map[k] += part->map[k];
-        sums->rate[k] += part->rate[k];
     }
     for (int k = 0; k < 6; ++k) {
         sums->spread[k] += part->spread[k];

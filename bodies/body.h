@@ -95,13 +95,10 @@ typedef struct mor_body {
     double rotation_angle[3];         /* integral of the angular velocity since the start, rad */
     double begin_velocity[3];         /* of the center when the last common step began, m/s */
     double begin_angular_velocity[3]; /* likewise, rad/s */
-    double rate[9];       /* of an elastic body: of its deformation gradient, the best linear one, shape [3,3], 1/s */
-    double begin_rate[9]; /* likewise, when the last common step began */
-    bool is_clamped;      /* particles of an elastic body stand still: it has no motion as a whole */
-    bool is_held;         /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
-    bool is_absent;       /* was removed before the run began: its energy does not count */
+    bool is_held;            /* prescribed motion: forces do not move it; counts as infinitely heavy in contact */
+    bool is_absent;          /* was removed before the run began: its energy does not count */
     double added_mass_ratio; /* added mass of soil over its own, see mor_body_find_added_mass, 1; 0: no soil */
-    double slowing;          /* factor by which it shortens the soil's steps, 1; 0: no soil */
+    double slowing;          /* factor by which it shortens the soil's steps, 1 or more, 1; 0: no soil */
     /* Forces. */
     double contact_force[3];  /* of other bodies and walls on a rigid body, at its center, in this sub-step, N (N/m) */
     double contact_moment[3]; /* about its center, N m (N) */
@@ -123,7 +120,6 @@ typedef struct mor_body_sums {
     double velocity[3]; /* w, m/s */
     double moment[3];   /* d x w, m2/s */
     double map[9];      /* shape [3,3]; d (x) D, m2 */
-    double rate[9];     /* shape [3,3]; w (x) D, m2/s */
     double spread[6];   /* d_a d_a, then d_a d_(a+1), m2 */
 } mor_body_sums;
 
@@ -145,10 +141,11 @@ typedef struct mor_body_group {
     double *contact_force; /* shape [n_particles, 3]; of contact in this sub-step, N (N/m); NULL unless deformable */
     mor_body *bodies;      /* shape [n_bodies] */
     int n_bodies;
-    mor_boundary boundary; /* what the soil sees; patch b is body b; boundary.force is the soil's force on particles */
-    bool is_unseen;        /* no soil sees the group: its boundary is not kept up to date */
-    double *start;         /* shape [n_particles, 3]; positions at the start of the common step, for eq. 60, m */
-    double *mean_velocity; /* shape [n_particles, 3]; over the last common step, eq. 60, m/s */
+    mor_boundary boundary;  /* what the soil sees; patch b is body b; boundary.force is the soil's force on particles */
+    bool is_unseen;         /* no soil sees the group: its boundary is not kept up to date */
+    double *start;          /* shape [n_particles, 3]; positions at the start of the common step, for eq. 60, m */
+    double *begin_velocity; /* shape [n_particles, 3]; at the start of the common step, m/s */
+    double *mean_velocity;  /* shape [n_particles, 3]; over the last common step, eq. 60, m/s */
     /* Surface nodes carry contact. A node is a weighted mean of particles of its body, exact for linear fields:
      * sum w = 1, sum w X_particle = X_node. */
     int64_t n_nodes;
@@ -233,8 +230,8 @@ void mor_body_group_clear(mor_context *context, mor_body_group *group);
 void mor_body_group_begin(mor_context *context, mor_body_group *group, double length);
 
 /** After the sub-steps: gives the soil the velocities it is to see (docs/theory/coupling.md, C6b): of rigid bodies the
- *  present ones, of elastic ones the means over the common step, Zhang et al. (2024) eq. 60, with the linear part of
- *  their motion at its end; and the largest speed of all. Elastic bodies are observed before.
+ *  present ones, of elastic ones half of that and half of the means over the common step, Zhang et al. (2024) eq. 60,
+ *  without their lag; and the largest speed of all.
  *  @param length  [in]      length of the common step, unit s */
 void mor_body_group_finish(mor_context *context, mor_body_group *group, double length);
 
@@ -252,9 +249,9 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
 
 /** Finds the added mass of soil of a body over its own mass: the soil within one spacing of its surface, that which
  *  slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
- *  largest. Of an elastic body also the square of half the soil's impedance over its own. A body with a ratio above 1
- *  is light: the soil takes steps shorter by the root of the ratio, of an elastic body by 1.2 times that
- *  (core/particle/boundary.h). To be called before the first step.
+ *  largest. Of an elastic body also the square of half the soil's impedance over its own. The
+ *  soil takes steps shorter by the root of the ratio, of an elastic body by 1.2 times that, where this factor is
+ *  above 1 (core/particle/boundary.h). To be called before the first step.
  *  @param group           [in,out]  made by mor_body_group_init
  *  @param body            [in]      index of the body
  *  @param density         [in]      of the soil, unit kg/m3
@@ -263,8 +260,7 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
 void mor_body_find_added_mass(mor_body_group *group, int body, double density, double sound_speed, unsigned locked);
 
 /** Finds an elastic body's motion as a whole from its particles: center, mean velocity, angular velocity (angular
- *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map) and the rate of that
- *  map, rotation angle.
+ *  momentum over inertia of the particles), rotation (polar decomposition of the best linear map), rotation angle.
  *  @param length  [in]      time since the last call, unit s; for the rotation angle */
 void mor_body_group_observe(mor_context *context, mor_body_group *group, double length);
 

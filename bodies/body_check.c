@@ -39,6 +39,7 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
     visit(job, MOR_RESOURCE_REFERENCE, group->node_weights, group->n_nodes * MOR_BODY_NODE_PARTICLES);
     visit(job, MOR_RESOURCE_BOUNDARIES, boundary->records, boundary->n_points * MOR_BOUNDARY_RECORD);
     visit(job, MOR_RESOURCE_BOUNDARIES, group->start, 3 * n);
+    visit(job, MOR_RESOURCE_BOUNDARIES, group->begin_velocity, 3 * n);
     visit(job, MOR_RESOURCE_BOUNDARIES, group->mean_velocity, 3 * n);
     visit(job, MOR_RESOURCE_WALL_FORCES, boundary->force, 3 * boundary->n_points);
     visit(job, MOR_RESOURCE_BODIES, group->contact_force, 3 * n);

@@ -387,7 +387,7 @@ static void elastic_make_stepper(mor_body_group *group, mor_stepper *stepper, ui
 static int64_t elastic_start(mor_body_group *group, int body, const mor_body_start *start)
 {
     const mor_elastic *elastic = group->owner;
-    mor_body *own = &group->bodies[body];
+    const mor_body *own = &group->bodies[body];
     int64_t n_clamped = 0;
     for (int64_t i = own->first; i < own->first + own->n_particles; ++i) {
         const double *reference = group->reference + 3 * i;
@@ -408,7 +408,6 @@ static int64_t elastic_start(mor_body_group *group, int body, const mor_body_sta
             memset(v, 0, 3 * sizeof *v);
         }
     }
-    own->is_clamped = n_clamped > 0;
     return n_clamped;
 }
 

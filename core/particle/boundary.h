@@ -31,7 +31,7 @@ typedef struct mor_boundary_friction {
 enum {
     MOR_BOUNDARY_POSITION = 0, /* 3, in the middle of the soil's step, m */
     MOR_BOUNDARY_VOLUME = 3,   /* m3, or m2 in plane strain */
-    MOR_BOUNDARY_VELOCITY = 4, /* 3, mean over the soil's last step, eq. 60; of light patches at its end; m/s */
+    MOR_BOUNDARY_VELOCITY = 4, /* 3, what the soil is to see of its motion after its last step, C6b; m/s */
     MOR_BOUNDARY_RECORD = 8
 };
 
@@ -67,7 +67,7 @@ typedef struct mor_boundary {
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;
     double largest_speed;        /* of any point, m/s; bounds how far points move in a step */
-    double slowing;              /* factor by which light bodies shorten the soil's steps, 1; 0: none does */
+    double slowing;              /* factor by which light bodies shorten the soil's steps, 1 or more, 1; 0: no body */
     const double *mean_velocity; /* shape [n_points, 3]; over the present step, for the work of forces on points, m/s;
                                   * NULL: the velocity in the records */
     double *force;               /* shape [n_points, 3]; [written by the soil] force on each point in the last step,

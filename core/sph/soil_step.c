@@ -58,7 +58,7 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
     *limit = "the speed of sound in the soil";
     if (slowing > 1.0) {
         *step_length /= slowing;
-        *limit = "a body lighter than its added mass of soil";
+        *limit = "a body that is light for its added mass of soil";
         by_barrier /= slowing;
     }
     if (soil->largest_acceleration > 0.0) {

@@ -79,7 +79,7 @@ static const char body_space[] =
     "  density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { BODY_VARIANTS = 15 };
+enum { BODY_VARIANTS = 16 };
 
 static const scene_variant body_variants[BODY_VARIANTS] = {
     {"as it comes", {NULL}},
@@ -99,6 +99,7 @@ static const scene_variant body_variants[BODY_VARIANTS] = {
      {"soil[0].initial_stress.type=settled", "soil[0].initial_stress.settle_speed_ratio=1",
       "soil[0].velocity=(0, 0, 0)", NULL}},
     {"scheme moraine", {"numerics.scheme=moraine", NULL}},
+    {"moraine with diffusion in every other step", {"numerics.scheme=moraine", "numerics.courant=0.5", NULL}},
     {"moraine on its lattice", {"numerics.scheme=moraine", "numerics.lattice_normalization=true", NULL}},
 };
 

@@ -44,7 +44,7 @@ static const char scene_space[] =
     "  density_reinitialization = 9; sort_interval = 13; lattice_normalization = false;"
     "  wall_stress = 'uniform'; };";
 
-enum { SCENE_VARIANT_SETTINGS = 4, SCENE_VARIANTS = 33 };
+enum { SCENE_VARIANT_SETTINGS = 4, SCENE_VARIANTS = 34 };
 
 /** One way to run the scenes. */
 typedef struct scene_variant {
@@ -90,6 +90,7 @@ static const scene_variant scene_variants[SCENE_VARIANTS] = {
     {"no friction", {"soil[0].material.friction_angle=0", "soil[0].material.dilation_angle=0", NULL}},
     {"no cohesion", {"soil[0].material.cohesion=0", NULL}},
     {"scheme moraine", {"numerics.scheme=moraine", NULL}},
+    {"moraine with diffusion in every other step", {"numerics.scheme=moraine", "numerics.courant=0.5", NULL}},
     {"moraine on its lattice", {"numerics.scheme=moraine", "numerics.lattice_normalization=true", NULL}},
     {"moraine by present moments", {"numerics.scheme=moraine", "numerics.angular_momentum_by=present", NULL}},
     {"moraine with coulomb walls",

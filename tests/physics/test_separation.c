@@ -27,6 +27,7 @@
                   "  { name = 'volume'; type = 'volume'; }, { name = 'speed'; type = 'largest_speed'; } );"
 
 /* A block in free flight. */
+/* courant: the volume that is compared grows by the sum over the steps, whose number the bound was measured with. */
 #define FLIGHT(numerics)                                                                                               \
     "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0);"                                                 \
     "domain = { min = (-1, -1); max = (1, 1); };"                                                                      \

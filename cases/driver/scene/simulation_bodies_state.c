@@ -188,7 +188,7 @@ static bool is_clamped(const void *user, const double *reference)
     return start->body->clamp->operations->distance(start->body->clamp, scene) < 0.0;
 }
 
-/* At the start the mean velocity over the last step is the velocity itself. */
+/* At the start the soil sees the velocity itself. */
 static void show_velocities(mor_body_group *group)
 {
     double fastest = 0.0;
