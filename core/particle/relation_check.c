@@ -30,11 +30,13 @@ mor_status mor_relation_check_cluster(mor_context *context, const mor_relation_c
         for (int64_t i = first; i < last && !is_listed; ++i) {
             const double distance = sqrt(squared_distance(check, i, j));
             if (distance < check->support) {
+                const double *at = check->source.records + check->source.stride * i;
                 return MOR_FAIL(context, MOR_ERROR_INTERNAL,
-                                "neighbor lists of %s and %s: particles %" PRId64 " and %" PRId64
-                                " are %g m apart, within the support of %g m, and the first does not list the second; "
-                                "please report this with the case",
-                                check->source_name, check->target_name, i, j, distance, check->support);
+                                "neighbor lists of %s and %s: the particle in place %" PRId64 " at (%g, %g, %g) m and "
+                                "the point in place %" PRId64 " are %g m apart, within the support of %g m, and the "
+                                "first does not list the second; please report this with the case",
+                                check->source_name, check->target_name, i, at[0], at[1], at[2], j, distance,
+                                check->support);
             }
         }
     }

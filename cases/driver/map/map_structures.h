@@ -12,8 +12,9 @@
 /** Finds what is covered by structures, seen from above.
  *  @param the_case [in]      maps are wanted
  *  @param size     [in]      shape [2]; columns and rows of pixels that share the map evenly, >= 1
- *  @param covered  [out]     the address of one array [size[1], size[0]], row 0 with the largest y; 1: a structure stands
- *                            there above the ground; NULL: none does, or the map has no terrain; owned by the caller
+ *  @param covered  [out]     the address of one array [size[1], size[0]], row 0 with the largest y; 1: a structure
+ *                            stands there above the ground; NULL: none does, or the map has no terrain; owned by the
+ *                            caller
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; as mor_map_grid_init. */
 mor_status mor_map_structures_find(mor_context *context, const mor_case *the_case, const int *size, uint8_t **covered);
 
