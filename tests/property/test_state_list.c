@@ -53,6 +53,7 @@ static void poison_scratch(mor_simulation *s)
         mor_body_group *group = s->bodies.groups[g];
         const int64_t n = 3 * group->set.n_particles;
         poison(group->start, n);
+        poison(group->begin_velocity, n);
         poison(group->mean_velocity, n);
         poison(group->contact_force, n);
         poison(s->has_soil ? group->boundary.force : NULL, n);

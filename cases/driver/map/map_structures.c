@@ -14,9 +14,8 @@
 typedef struct covering {
     const mor_map_grid *grid;
     const int *size; /* shape [2] */
-    double touch;    /* a ray this near to a surface hits it, m */
     uint8_t *covered;
-    int64_t n; /* pixels that are covered */
+    int64_t n; /* pixels covered, those of two walls twice */
 } covering;
 
 static double pixel_length(const covering *c, int axis)
@@ -49,14 +48,16 @@ static void find_range(const covering *c, const mor_bounds *bounds, int axis, in
     range[1] = (int)fmin(fmax(ceil(high), 0.0), c->size[axis]);
 }
 
-/* Looks down from the highest point of the wall to the ground, or to the wall's foot. */
+/* Looks down from the highest point of the wall to the ground, or to the wall's foot; walls thinner than a pixel are
+ * seen, too. */
 static bool is_seen(const covering *c, const mor_shape *shape, const mor_bounds *bounds, const double *place)
 {
     static const double down[3] = {0.0, 0.0, -1.0};
+    const double share_of_pixel = 0.45; /* below a half, so that a wall is not wider than it is by more than a pixel */
     const double from[3] = {place[0], place[1], bounds->maximum[2]};
     const double ground = mor_terrain_height(c->grid->terrain, place[0], place[1]);
     const double reach = from[2] - fmax(ground, bounds->minimum[2]);
-    return mor_shape_meets_ray(shape, from, down, reach, c->touch);
+    return mor_shape_meets_ray(shape, from, down, reach, share_of_pixel * fmin(pixel_length(c, 0), pixel_length(c, 1)));
 }
 
 static void cover_wall(covering *c, const mor_shape *shape, const mor_bounds *bounds)
@@ -79,7 +80,6 @@ static void cover_wall(covering *c, const mor_shape *shape, const mor_bounds *bo
 
 mor_status mor_map_structures_find(mor_context *context, const mor_case *the_case, const int *size, uint8_t **covered)
 {
-    const double touch = 0.1; /* spacings */
     mor_map_grid grid;
     *covered = NULL;
     MOR_TRY(context, mor_map_grid_init(context, the_case, &grid));
@@ -87,7 +87,7 @@ mor_status mor_map_structures_find(mor_context *context, const mor_case *the_cas
         return MOR_OK;
     }
     MOR_TRY(context, MOR_NEW(context, covered, (int64_t)size[0] * size[1], "the structures on a map"));
-    covering c = {.grid = &grid, .size = size, .touch = touch * the_case->spacing, .covered = *covered};
+    covering c = {.grid = &grid, .size = size, .covered = *covered};
     for (int w = 0; w < the_case->n_walls; ++w) {
         const mor_case_wall *wall = &the_case->walls[w];
         mor_bounds bounds;

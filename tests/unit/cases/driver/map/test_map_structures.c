@@ -100,6 +100,20 @@ static void a_post_covers_the_pixels_over_its_base(void **state)
     }
 }
 
+/* A tenth of a pixel thick, in the middle between the centers of two rows of pixels. */
+static void a_wall_thinner_than_a_pixel_has_no_gaps(void **state)
+{
+    static const double low[3] = {10.0, 20.975, -1.0};
+    static const double high[3] = {30.0, 21.025, 6.0};
+    fixture *f = *state;
+    add_box(f, low, high);
+    find(f);
+    assert_non_null(f->covered);
+    for (int column = 20; column < 60; ++column) {
+        assert_true(f->covered[17 * COLUMNS + column] != 0 || f->covered[18 * COLUMNS + column] != 0);
+    }
+}
+
 static void what_is_buried_moves_is_removed_or_covers_all_is_no_structure(void **state)
 {
     static const double low[3] = {20.0, 21.0, -1.0};
@@ -136,6 +150,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_post_covers_the_pixels_over_its_base, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_wall_thinner_than_a_pixel_has_no_gaps, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_buried_moves_is_removed_or_covers_all_is_no_structure, set_up,
                                         tear_down),
         cmocka_unit_test_setup_teardown(without_terrain_there_are_none, set_up, tear_down),
