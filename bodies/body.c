@@ -291,7 +291,7 @@ void mor_body_group_begin(mor_context *context, mor_body_group *group, double le
     }
 }
 
-/* Velocity of a particle of an elastic body that the soil sees: half of it that at the end of the step, half the
+/* Velocity of a particle of an elastic body that the soil sees: half its velocity at the end of the step and half the
  * mean over the step without its lag. docs/theory/coupling.md, C6b. */
 static double find_seen_velocity(double begin, double mean, double end)
 {

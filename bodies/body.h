@@ -249,9 +249,9 @@ void mor_body_group_visit_shared(mor_body_group *group, mor_shared_visit visit, 
 
 /** Finds the added mass of soil of a body over its own mass: the soil within one spacing of its surface, that which
  *  slides along a face counting a third, for the free motion of the body as a whole for which the ratio is
- *  largest. Of an elastic body also the square of half the soil's impedance over its own. The
- *  soil takes steps shorter by the root of the ratio, of an elastic body by 1.2 times that, where this factor is
- *  above 1 (core/particle/boundary.h). To be called before the first step.
+ *  largest. Of an elastic body also the square of half the soil's impedance over its own. The soil takes
+ *  steps shorter by the root of the ratio, of an elastic body by 1.2 times that, where this factor is above 1
+ *  (core/particle/boundary.h). To be called before the first step.
  *  @param group           [in,out]  made by mor_body_group_init
  *  @param body            [in]      index of the body
  *  @param density         [in]      of the soil, unit kg/m3

@@ -204,11 +204,10 @@ static void print_lightest(FILE *out, const mor_simulation *s)
     }
     if (lightest != NULL) {
         fprintf(out,
-                "  lightest body           '%s' has an added mass of soil up to %.3g times its own mass%s: steps %.2g "
-                "times "
-                "shorter\n",
-                lightest->name, lightest->added_mass_ratio,
-                lightest->added_mass_ratio < 1.0 ? " and is elastic, which counts as 1.44 times that" : "", slowing);
+                "  lightest body           '%s' has an added mass of soil up to %.3g times its own mass%s: "
+                "steps %.2g times shorter\n",
+                lightest->name, lightest->added_mass_ratio, lightest->added_mass_ratio < 1.0 ? " and is elastic" : "",
+                slowing);
     }
 }
 

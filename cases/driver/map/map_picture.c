@@ -252,7 +252,7 @@ static mor_status measure_side(mor_context *context, sheet *s, int *height)
         *height = (int)fmax(*height, ceil(s->next));
     }
     mor_canvas_free(context, &s->canvas);
-    return status;
+    return status == MOR_OK ? MOR_OK : mor_context_pass(context, status, MOR_HERE);
 }
 
 static void draw_head(const sheet *s, double width)
