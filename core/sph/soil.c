@@ -69,11 +69,13 @@ static bool has_audit(const void *owner)
     return ((const mor_soil *)owner)->energy != NULL;
 }
 
+#define CALM (BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_STRESS) | BIT(QUIET_SPAN))
+
 /* What soil that is not released keeps, beside its state. */
 #define STANDING                                                                                                       \
     (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
      BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |      \
-     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN))
+     CALM)
 
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
@@ -153,9 +155,8 @@ static const mor_stage soil_stages[] = {
      SHARED(CLOSED), BIT(SPIN_STRESS) | BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS),
      "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
      mor_soil_has_memory},
-    {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | SHARED(LISTS), 0,
-     BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN), "for how long each particle has been quiet, when soil may sleep",
-     mor_soil_has_quiet},
+    {"quiet", mor_soil_find_quiet, BIT(POSITION) | BIT(VELOCITY) | BIT(STRESS) | SHARED(LISTS), 0, CALM,
+     "for how long each particle has been quiet, when soil may sleep", mor_soil_has_quiet},
     {"stand", mor_soil_put_back, SHARED(LISTS), 0, STANDING | SHARED(STATE),
      "puts soil back that is not released, where it was computed beside other soil", mor_soil_may_hold},
     {"energy of stress", mor_soil_audit_stress,
@@ -168,11 +169,11 @@ static const mor_stage soil_stages[] = {
      SHARED(ORDER), "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
-static const uint64_t evolving_fields =
-    BIT(MEAN_STRESS) | BIT(FLOW) | BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN) | BIT(POSITION) | BIT(VELOCITY) |
-    BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) | BIT(HOURGLASS) |
-    BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
-    SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | CALM | BIT(POSITION) | BIT(VELOCITY) |
+                                        BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |
+                                        BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |
+                                        BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) |
+                                        SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */
@@ -331,7 +332,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= settings->scheme.separation_memory ? ~(uint64_t)0 : ~BIT(SEPARATION);
-    fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~(BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_SPAN));
+    fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~CALM;
     fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
                                                                                                : ~BIT(CROSSINGS);
     fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);

@@ -170,6 +170,19 @@ static void set_velocities(mor_context *context, const mor_soil_powers *job, boo
     mor_images_follow(context, &job->soil->images, job->records, MOR_RECORD_SIZE, MOR_RECORD_POSITION);
 }
 
+static void find_powers(const void *soil, const void *pairs, int64_t first, int64_t last, bool sleeps)
+{
+    const mor_pair_audit_job *job = pairs;
+    const int64_t n = job->arrays->n_particles;
+    const int64_t end = last * MOR_CLUSTER < n ? last * MOR_CLUSTER : n;
+    if (!sleeps) {
+        ((const mor_soil *)soil)->energy->find_powers(job, first, last);
+    } else {
+        memset(job->powers + first * MOR_CLUSTER * MOR_PAIR_POWERS, 0,
+               (size_t)((end - first * MOR_CLUSTER) * MOR_PAIR_POWERS) * sizeof *job->powers);
+    }
+}
+
 /* (E6), (E8): each part of the pair forces. Particles are where they were, so that the short lists are those of the
  * momentum loop; what sleeps stands still. */
 static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *view)
@@ -186,18 +199,7 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
                                       .has_stress = mor_soil_corrects_gradient(soil),
                                       .powers = soil->energy->scratch};
     set_velocities(context, job, true);
-    const int64_t n = arrays.inner->n_clusters;
-    MOR_PARALLEL_FOR (context, block, (n + MOR_SLEEP_CLUSTERS - 1) / MOR_SLEEP_CLUSTERS, 1) {
-        const int64_t first = block * MOR_SLEEP_CLUSTERS;
-        const int64_t last = first + MOR_SLEEP_CLUSTERS < n ? first + MOR_SLEEP_CLUSTERS : n;
-        if (mor_sleep_is(arrays.asleep, first, MOR_SLEEP_ASLEEP)) {
-            const int64_t end = last * MOR_CLUSTER < arrays.n_particles ? last * MOR_CLUSTER : arrays.n_particles;
-            memset(pairs.powers + first * MOR_CLUSTER * MOR_PAIR_POWERS, 0,
-                   (size_t)((end - first * MOR_CLUSTER) * MOR_PAIR_POWERS) * sizeof *pairs.powers);
-        } else {
-            soil->energy->find_powers(&pairs, first, last);
-        }
-    }
+    mor_sleep_run(context, arrays.asleep, arrays.inner->n_clusters, find_powers, soil, &pairs);
     set_velocities(context, job, false);
     mor_soil_energy_add(context, job, find_pairs_block);
 }

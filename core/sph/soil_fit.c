@@ -7,9 +7,6 @@
 
 #include <string.h>
 
-/* Clusters a thread takes at once. */
-enum { CLUSTERS = MOR_SLEEP_CLUSTERS };
-
 void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, double *closed,
                            double *continued)
 {
@@ -26,10 +23,13 @@ void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const dou
 }
 
 /* Soil that sleeps has no strain rate; its velocity gradient is zero already. */
-static void clear_rates(const mor_soil_fit_job *job, int64_t first, int64_t last)
+static void fit_clusters(const void *soil, const void *fit_job, int64_t first, int64_t last, bool sleeps)
 {
+    const mor_soil_fit_job *job = fit_job;
     const int64_t end = last * MOR_CLUSTER < job->n_particles ? last * MOR_CLUSTER : job->n_particles;
-    if (job->strain_rate != NULL) {
+    if (!sleeps) {
+        ((const mor_soil *)soil)->lanes->fit(job, first, last);
+    } else if (job->strain_rate != NULL) {
         memset(job->strain_rate + 6 * first * MOR_CLUSTER, 0,
                (size_t)(6 * (end - first * MOR_CLUSTER)) * sizeof *job->strain_rate);
     }
@@ -61,14 +61,6 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
             mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         mor_soil_contact_add_moments(context, contact, soil->set.n_particles, closed, continued);
     }
-    const int64_t n = soil->tree.n_clusters;
-    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
-        const int64_t last = (chunk + 1) * CLUSTERS;
-        if (mor_sleep_is(soil->sleep.states, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
-            clear_rates(&job, chunk * CLUSTERS, last < n ? last : n);
-        } else {
-            soil->lanes->fit(&job, chunk * CLUSTERS, last < n ? last : n);
-        }
-    }
+    mor_sleep_run(context, soil->sleep.states, soil->tree.n_clusters, fit_clusters, soil, &job);
     return MOR_OK;
 }

@@ -10,11 +10,7 @@
 #include "core/sph/stress/stress_update.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
-
-/* CLUSTERS: clusters a thread takes at once in a pair loop. BATCH: particles handed to a material at once. */
-enum { CLUSTERS = MOR_SLEEP_CLUSTERS, BATCH = MOR_SOIL_BATCH };
 
 /* What a loop would write of the particles of clusters [first, last) is zero. */
 static void clear_outputs(const mor_pair_arrays *arrays, int64_t first, int64_t last)
@@ -36,19 +32,29 @@ static void clear_outputs(const mor_pair_arrays *arrays, int64_t first, int64_t 
     }
 }
 
+/* A loop over pairs. */
+typedef struct pair_job {
+    const mor_pair_constants *constants;
+    mor_pair_loop loop;
+} pair_job;
+
+static void sum_pairs(const void *pair_arrays, const void *job, int64_t first, int64_t last, bool sleeps)
+{
+    const mor_pair_arrays *arrays = pair_arrays;
+    const pair_job *it = job;
+    if (sleeps) {
+        clear_outputs(arrays, first, last);
+        mor_relation_restore_near(arrays->inner, first, last);
+    } else {
+        it->loop(it->constants, arrays, first, last);
+    }
+}
+
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
                         mor_pair_loop loop)
 {
-    const int64_t n = arrays->inner->n_clusters;
-    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
-        const int64_t last = (chunk + 1) * CLUSTERS;
-        if (mor_sleep_is(arrays->asleep, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
-            clear_outputs(arrays, chunk * CLUSTERS, last < n ? last : n);
-            mor_relation_restore_near(arrays->inner, chunk * CLUSTERS, last < n ? last : n);
-        } else {
-            loop(constants, arrays, chunk * CLUSTERS, last < n ? last : n);
-        }
-    }
+    const pair_job job = {constants, loop};
+    mor_sleep_run(context, arrays->asleep, arrays->inner->n_clusters, sum_pairs, arrays, &job);
 }
 
 /* Runs the loop for the precision asked for: by dimension - 2 in double and in mixed precision. */
@@ -135,7 +141,7 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
     /* Beside an elastic stress it has no potential and gains energy, so that it acts as far as soil flows. */
     const double *flow = soil->constants.has_transient ? mor_view_read(view, MOR_FIELD_FLOW) : NULL;
     double *artificial = mor_view_write(view, MOR_FIELD_ARTIFICIAL_STRESS);
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, BATCH) {
+    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_SOIL_BATCH) {
         const double share = flow != NULL ? fmin(flow[i] / FLOWING, 1.0) : 1.0;
         mor_artificial_stress_find(stress + 6 * i, share * soil->settings.scheme.artificial_stress_factor,
                                    artificial + 6 * i);
@@ -258,16 +264,23 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
 /* What the workers of the stress update share. */
 typedef struct stress_job {
     mor_stress_update update;
-    const int8_t *asleep; /* shape [blocks]; states of sleep; NULL: all are awake */
+    const int8_t *asleep; /* shape [clusters]; states of sleep; NULL: all are awake */
+    int64_t *failed;      /* shape [batches]; first particle of the update that failed in it */
 } stress_job;
 
 static mor_status advance_block(void *job, int64_t first, int64_t last)
 {
     const stress_job *it = job;
     mor_stress_failed failed = {0};
-    return mor_sleep_is(it->asleep, first / MOR_CLUSTER, MOR_SLEEP_ASLEEP)
-               ? MOR_OK
-               : mor_stress_advance(&it->update, first, last, &failed);
+    mor_status status = MOR_OK;
+    for (int64_t start = first, end = 0; start < last && status == MOR_OK; start = end) {
+        end = mor_sleep_particles_end(it->asleep, start, last);
+        if (!mor_sleep_is(it->asleep, start / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+            it->failed[first / MOR_SOIL_BATCH] = start;
+            status = mor_stress_advance(&it->update, start, end, &failed);
+        }
+    }
+    return status;
 }
 
 /* Keeps what the failed update started from: the failed batch has its start values back. */
@@ -290,14 +303,15 @@ static void keep_failure(const mor_soil *soil, const mor_stress_update *it, cons
     }
 }
 
-/* Does the failed batch again to learn which particle it was. */
+/* Does the failed update again to learn which particle it was. */
 static mor_status report_stress(mor_context *context, const mor_soil *soil, const mor_stress_update *it,
                                 const mor_view *view, const mor_step *step, int64_t first, mor_soil_failure *failure)
 {
-    const int64_t left = soil->set.n_particles - first;
     mor_stress_failed failed = {0};
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time + step->length));
-    const int64_t n = left < BATCH ? left : BATCH;
+    const int64_t batch_end = (first / MOR_SOIL_BATCH + 1) * MOR_SOIL_BATCH;
+    const int64_t last = batch_end < soil->set.n_particles ? batch_end : soil->set.n_particles;
+    const int64_t n = mor_sleep_particles_end(soil->sleep.states, first, last) - first;
     mor_status status = mor_stress_advance(it, first, first + n, &failed);
     if (status == MOR_ERROR_CRASH && soil->settings.guard != NULL) {
         status = mor_stress_find_crash(it, first, n, &failed);
@@ -322,7 +336,8 @@ _Static_assert((int)MOR_STRESS_SOILS_MAX >= (int)MOR_COMPOSITE_PARTS_MAX, "each 
 mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    stress_job job = {.asleep = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states)};
+    stress_job job = {.asleep = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states),
+                      .failed = soil->room.indices};
     job.update = (mor_stress_update){
         .material = soil->material,
         .guard = soil->settings.guard,
@@ -350,7 +365,8 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
         job.update.widths[k] = soil->set.fields[soil->state_fields[k]].n_components;
     }
     mor_view_write_state(view, soil->state_fields, soil->material->n_state, job.update.state);
-    const mor_blocks blocks = mor_soil_blocks(soil, BATCH, 4);
+    const mor_blocks blocks = mor_soil_blocks(soil, MOR_SOIL_BATCH, 4);
     const int64_t failed = mor_reduce_status(&blocks, context->n_threads, advance_block, &job, soil->room.statuses);
-    return failed < 0 ? MOR_OK : report_stress(context, soil, &job.update, view, step, failed * BATCH, &soil->failure);
+    return failed < 0 ? MOR_OK
+                      : report_stress(context, soil, &job.update, view, step, job.failed[failed], &soil->failure);
 }

@@ -10,9 +10,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Clusters a thread takes at once. */
-enum { CLUSTERS = MOR_SLEEP_CLUSTERS };
-
 /* MEMORY: time over which the recent mean follows the stress, over h / c0. A wave of length l is diffused by y^2 /
  * (1 + y^2) of what diffusion does without the mean, y = 2 pi MEMORY h / l: one as long as the support, 4 h, by 0.98,
  * one of eight supports by half. For waves much longer y is small, and their error of order two in h. Three and less
@@ -34,15 +31,16 @@ bool mor_soil_has_memory(const void *owner)
     return constants->has_hourglass || constants->has_transient || mor_soil_has_last_spin(owner);
 }
 
+static void remember(const void *soil, const void *job, int64_t first, int64_t last, bool sleeps)
+{
+    if (!sleeps) {
+        ((const mor_soil *)soil)->lanes->remember(job, first, last);
+    }
+}
+
 static void run_memory(mor_context *context, const mor_soil *soil, const mor_soil_memory_job *job)
 {
-    const int64_t n = soil->tree.n_clusters;
-    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
-        const int64_t last = (chunk + 1) * CLUSTERS;
-        if (!mor_sleep_is(soil->sleep.states, chunk * CLUSTERS, MOR_SLEEP_ASLEEP)) {
-            soil->lanes->remember(job, chunk * CLUSTERS, last < n ? last : n);
-        }
-    }
+    mor_sleep_run(context, soil->sleep.states, soil->tree.n_clusters, remember, soil, job);
 }
 
 /* Adds the moments over walls. */

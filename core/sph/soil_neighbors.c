@@ -66,8 +66,8 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
         pack_soils(context, soil, state[0]);
     }
     if (soil->sleep.states != NULL) {
-        MOR_TRY(context, mor_sleep_find_neighbors(context, &soil->sleep, points->records, soil->set.n_particles,
-                                                  mor_soil_reach(soil)));
+        MOR_TRY(context,
+                mor_sleep_find_neighbors(context, &soil->sleep, points->tree, points->records, mor_soil_reach(soil)));
     }
     mor_skin_places_keep(context, &soil->list_places, position);
     soil->has_lists = true;

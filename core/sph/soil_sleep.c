@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/particle/kernel.h"
 #include "core/sph/boundary/soil_wall.h"
+#include "core/sph/sleep/quiet.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,9 +45,10 @@ mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_p
 
 /* What a particle that is not released keeps, beside its state. */
 static const int standing[] = {
-    MOR_FIELD_POSITION,    MOR_FIELD_VELOCITY,    MOR_FIELD_DENSITY, MOR_FIELD_DENSITY_RATE, MOR_FIELD_STRESS,
-    MOR_FIELD_STRAIN_RATE, MOR_FIELD_MEAN_STRESS, MOR_FIELD_FLOW,    MOR_FIELD_HOURGLASS,    MOR_FIELD_HOURGLASS_MOMENT,
-    MOR_FIELD_SPIN_STRESS, MOR_FIELD_SEPARATION,  MOR_FIELD_QUIET,   MOR_FIELD_QUIET_PLACE,  MOR_FIELD_QUIET_SPAN};
+    MOR_FIELD_POSITION,  MOR_FIELD_VELOCITY,         MOR_FIELD_DENSITY,      MOR_FIELD_DENSITY_RATE,
+    MOR_FIELD_STRESS,    MOR_FIELD_STRAIN_RATE,      MOR_FIELD_MEAN_STRESS,  MOR_FIELD_FLOW,
+    MOR_FIELD_HOURGLASS, MOR_FIELD_HOURGLASS_MOMENT, MOR_FIELD_SPIN_STRESS,  MOR_FIELD_SEPARATION,
+    MOR_FIELD_QUIET,     MOR_FIELD_QUIET_PLACE,      MOR_FIELD_QUIET_STRESS, MOR_FIELD_QUIET_SPAN};
 enum { STANDING = sizeof standing / sizeof *standing };
 
 /* Its arrays: those of the fields, as a view gives them, then those of the state. */
@@ -102,19 +104,15 @@ mor_status mor_soil_put_back(mor_context *context, void *owner, mor_view *view, 
     return MOR_OK;
 }
 
-/* Limits below which a particle is quiet. Waves in soil that stands still go on for long, but nowhere: displacement
- * tells them from creep. */
-typedef struct limits {
-    double displacement; /* in the time after which soil sleeps, m */
-    double speed;        /* m/s */
-} limits;
-
-static limits find_limits(const mor_soil *soil)
+static mor_quiet_limits find_limits(const mor_soil *soil)
 {
     const mor_scheme *scheme = &soil->settings.scheme;
     const double gravity = mor_vector_length(soil->settings.gravity);
-    return (limits){scheme->sleep_displacement * soil->settings.spacing,
-                    scheme->sleep_speed * sqrt(gravity * soil->settings.spacing)};
+    return (mor_quiet_limits){.after = scheme->sleep_after,
+                              .displacement = scheme->sleep_displacement * soil->settings.spacing,
+                              .speed = scheme->sleep_speed * sqrt(gravity * soil->settings.spacing),
+                              .stress = scheme->sleep_stress,
+                              .least = soil->kinds[0].reference_density * gravity * soil->settings.spacing};
 }
 
 mor_status mor_soil_list_sleep_bodies(mor_context *context, mor_soil *soil)
@@ -217,7 +215,7 @@ typedef struct falling {
 
 enum { TAKEN_MOMENTUM, TAKEN_ENERGY = 3, TAKEN };
 
-/* Stops the particles of blocks that sleep; adds what is taken from them. */
+/* Stops the particles that sleep; adds what is taken from them. */
 static void stop_block(void *job, int64_t first, int64_t last, double *values)
 {
     const falling *it = job;
@@ -238,14 +236,13 @@ static void stop_block(void *job, int64_t first, int64_t last, double *values)
 mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    const limits limit = find_limits(soil);
     mor_sleep *sleep = mor_view_write_shared(view, MOR_RESOURCE_LISTS, &soil->sleep);
     falling job = {sleep->states, mor_view_read(view, MOR_FIELD_MASS), mor_view_write(view, MOR_FIELD_VELOCITY),
                    mor_view_write(view, MOR_FIELD_DENSITY_RATE)};
     mor_sleep_job decision = {.n_particles = soil->set.n_particles,
                               .position = mor_view_read(view, MOR_FIELD_POSITION),
                               .quiet_time = mor_view_read(view, MOR_FIELD_QUIET),
-                              .held = soil->hold.n_held > 0 ? soil->hold.blocks : NULL,
+                              .held = soil->hold.n_held > 0 ? soil->hold.clusters : NULL,
                               .after = soil->settings.scheme.sleep_after,
                               .reach = MOR_KERNEL_SUPPORT * soil->smoothing_length,
                               .moving = soil->moving};
@@ -258,7 +255,7 @@ mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, con
         mor_sleep_wake(sleep);
         return MOR_OK;
     }
-    decision.n_moving = find_moving(soil, limit.speed, step->length);
+    decision.n_moving = find_moving(soil, find_limits(soil).speed, step->length);
     mor_sleep_decide(context, sleep, &decision);
     double taken[TAKEN] = {0.0};
     const mor_blocks blocks = mor_soil_blocks(soil, MOR_BLOCK, 1);
@@ -300,45 +297,28 @@ mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *vie
     for (int a = 0; a < 3; ++a) {
         sleep->impulse[a] -= step->length * force[a];
     }
-    for (int64_t block = 0; block < sleep->n_blocks; ++block) {
-        const int64_t left = soil->set.n_particles - block * MOR_SLEEP_PARTICLES;
-        const int64_t n = left < MOR_SLEEP_PARTICLES ? left : MOR_SLEEP_PARTICLES;
-        sleep->n_left_out += sleep->states[block] != MOR_SLEEP_AWAKE ? (uint64_t)n : 0U;
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        sleep->n_left_out += mor_sleep_is(sleep->states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
     }
     return MOR_OK;
 }
 
-static bool is_below(const limits *limit, const double *moved, const double *velocity)
-{
-    return mor_vector_dot(moved, moved) < limit->displacement * limit->displacement &&
-           mor_vector_dot(velocity, velocity) < limit->speed * limit->speed;
-}
-
 mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
-    mor_soil *soil = owner;
-    const limits limit = find_limits(soil);
-    const int8_t *states = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states);
-    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
-    const double *velocity = mor_view_read(view, MOR_FIELD_VELOCITY);
-    double *quiet = mor_view_write(view, MOR_FIELD_QUIET);
-    double *place = mor_view_write(view, MOR_FIELD_QUIET_PLACE);
-    double *span = mor_view_write(view, MOR_FIELD_QUIET_SPAN);
-    MOR_PARALLEL_FOR (context, i, soil->set.n_particles, MOR_BLOCK) {
-        const double *x = position + 3 * i;
-        double *from = place + 3 * i;
-        const double moved[3] = {x[0] - from[0], x[1] - from[1], x[2] - from[2]};
-        if (mor_sleep_is(states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
-            continue;
-        }
-        const bool is_quiet = !soil->is_relaxing && is_below(&limit, moved, velocity + 3 * i);
-        quiet[i] = is_quiet ? quiet[i] + step->length : 0.0;
-        span[i] += step->length;
-        if (!is_quiet || span[i] >= soil->settings.scheme.sleep_after) {
-            span[i] = 0.0;
-            memcpy(from, x, 3 * sizeof *from);
-        }
-    }
+    const mor_soil *soil = owner;
+    const mor_quiet_limits limits = find_limits(soil);
+    const mor_quiet_job job = {.n_particles = soil->set.n_particles,
+                               .length = step->length,
+                               .is_none = soil->is_relaxing,
+                               .states = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states),
+                               .position = mor_view_read(view, MOR_FIELD_POSITION),
+                               .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                               .stress = mor_view_read(view, MOR_FIELD_STRESS),
+                               .quiet = mor_view_write(view, MOR_FIELD_QUIET),
+                               .span = mor_view_write(view, MOR_FIELD_QUIET_SPAN),
+                               .place = mor_view_write(view, MOR_FIELD_QUIET_PLACE),
+                               .was = mor_view_write(view, MOR_FIELD_QUIET_STRESS)};
+    mor_quiet_find(context, &limits, &job);
     return MOR_OK;
 }
 

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* The columns 'a' and 'b' stand side by side; blocks of 256 particles hold soil of both. */
+/* The columns 'a' and 'b' stand side by side; clusters hold soil of both. */
 #define GROUND                                                                                                         \
     "title = 'columns'; dimension = 2; spacing = '20 mm'; gravity = ('0 m/s2', '-9.81 m/s2'); end = '1 s';"            \
     "domain = { min = ('-2 m', '-0.2 m'); max = ('3 m', '2 m'); };"                                                    \
@@ -20,15 +20,15 @@
     "    poissons_ratio = 0.3; friction_angle = '30 deg'; };"
 
 static const char one_column[] = GROUND
-    "soil = ( { name = 'a'; " SAND " shape = { type = 'box'; min = ('0 m', '0 m'); max = ('0.4 m', '0.6 m'); }; } );";
+    "soil = ( { name = 'a'; " SAND " shape = { type = 'box'; min = ('0 m', '0 m'); max = ('0.4 m', '0.62 m'); }; } );";
 
 static const char two_columns[] = GROUND
-    "soil = ( { name = 'a'; " SAND " shape = { type = 'box'; min = ('0 m', '0 m'); max = ('0.4 m', '0.6 m'); }; },"
-    "  { name = 'b'; " SAND " shape = { type = 'box'; min = ('0.4 m', '0 m'); max = ('0.8 m', '0.6 m'); }; } );";
+    "soil = ( { name = 'a'; " SAND " shape = { type = 'box'; min = ('0 m', '0 m'); max = ('0.4 m', '0.62 m'); }; },"
+    "  { name = 'b'; " SAND " shape = { type = 'box'; min = ('0.4 m', '0 m'); max = ('0.8 m', '0.62 m'); }; } );";
 
 static const char *const nothing[] = {NULL};
 
-enum { COLUMN = 600, PARTICLES = 2 * COLUMN };
+enum { COLUMN = 620, PARTICLES = 2 * COLUMN };
 
 static scene *open(const char *text, const char *const *settings, int n_threads)
 {
@@ -115,7 +115,7 @@ static void soil_that_is_not_released_stands_beside_soil_that_flows(void **state
     assert_int_equal(it->simulation.soil.set.n_particles, PARTICLES);
     collect(it, 1.0, before, &n);
     scene_advance(it, 0.25);
-    assert_true(it->simulation.soil.hold.n_mixed > 0); /* blocks of both kinds */
+    assert_true(it->simulation.soil.hold.n_mixed > 0); /* clusters of both kinds */
     assert_true(it->simulation.soil.sleep.n_asleep > 0);
     collect(it, 1.0, after, &n);
     assert_int_equal(n, PARTICLES / 2);
@@ -157,7 +157,7 @@ static double find_momentum(const mor_set *set)
 }
 
 /* Along x it comes from the floor and goes to soil that stands. The account is exact but for rounding: of 1e-16, for
- * each of 300 steps, of 600 particles with up to 0.6 kg m/s. */
+ * each of 300 steps, of 620 particles with up to 0.6 kg m/s. */
 static void momentum_given_to_soil_that_stands_is_accounted_for(void **state)
 {
     static const char *const later[] = {"soil[1].released=1 s", NULL};

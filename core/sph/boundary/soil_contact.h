@@ -144,7 +144,7 @@ typedef struct mor_soil_contact {
     double *given;            /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
     double *repulsion;        /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
     double *barrier_steps;    /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
-    const int8_t *sleep;      /* shape [blocks]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
+    const int8_t *sleep;      /* shape [clusters]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
     int64_t capacity;         /* slots that the arrays above have room for */
     int dimension;            /* 2 or 3 */
     mor_wall_stress stress;
@@ -270,7 +270,7 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
  *  @param n_particles [in]  number of soil particles
  *  @param at_wall     [in]  shape [clusters]; 0 where no boundary is listed: left as it is; NULL: all are solved
- *  @param sleep       [in]  shape [blocks]; where soil is held it is left as it is; NULL: all is awake
+ *  @param sleep       [in]  shape [clusters]; where soil is held it is left as it is; NULL: all is awake
  *  @param corners [in,out]  shape [n_particles] */
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
                                     const int8_t *sleep, mor_contact_corner *corners);

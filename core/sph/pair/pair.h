@@ -165,8 +165,7 @@ typedef struct mor_pair_arrays {
     const double *strain_rate; /* shape [n padded to 8, 6], 1/s; of the last step; NULL: no reconstruction */
     const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
-    const int8_t *asleep;      /* shape [blocks of 32 clusters]; not 0: whoever runs a loop leaves them out, with zeros;
-                                * NULL: none */
+    const int8_t *asleep;      /* shape [clusters]; not 0: whoever runs a loop leaves it out, with zeros; NULL: none */
     mor_pair_single_arrays singles; /* for the loops in mixed precision only */
 } mor_pair_arrays;
 

@@ -6,9 +6,9 @@
 
 #include <string.h>
 
-static int64_t count_blocks(int64_t n_particles)
+static int64_t count_clusters(int64_t n_particles)
 {
-    return (n_particles + MOR_SLEEP_PARTICLES - 1) / MOR_SLEEP_PARTICLES;
+    return (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER;
 }
 
 mor_status mor_hold_init(mor_context *context, mor_hold *hold, int64_t n_particles, const double *released,
@@ -21,7 +21,7 @@ mor_status mor_hold_init(mor_context *context, mor_hold *hold, int64_t n_particl
     memcpy(hold->released, released, (size_t)n_regions * sizeof *released);
     hold->n_regions = n_regions;
     MOR_TRY(context, MOR_NEW(context, &hold->is_held, n_particles, "soil that is not released"));
-    MOR_TRY(context, MOR_NEW(context, &hold->blocks, count_blocks(n_particles), "soil that is not released"));
+    MOR_TRY(context, MOR_NEW(context, &hold->clusters, count_clusters(n_particles), "soil that is not released"));
     return MOR_NEW(context, &hold->mixed, n_particles, "soil that is not released");
 }
 
@@ -29,19 +29,19 @@ void mor_hold_clear(mor_context *context, mor_hold *hold)
 {
     MOR_FREE(context, &hold->kept);
     MOR_FREE(context, &hold->mixed);
-    MOR_FREE(context, &hold->blocks);
+    MOR_FREE(context, &hold->clusters);
     MOR_FREE(context, &hold->is_held);
     memset(hold, 0, sizeof *hold);
 }
 
-/* Lists the held particles of a block that holds others, too. */
-static void list_block(mor_hold *hold, int64_t block, int64_t first, int64_t last)
+/* Lists the held particles of a cluster that holds others, too. */
+static void list_cluster(mor_hold *hold, int64_t cluster, int64_t first, int64_t last)
 {
     int64_t n = 0;
     for (int64_t i = first; i < last; ++i) {
         n += hold->is_held[i];
     }
-    hold->blocks[block] = (int8_t)(n == last - first);
+    hold->clusters[cluster] = (int8_t)(n == last - first);
     hold->n_held += n;
     for (int64_t i = first; i < last && n < last - first; ++i) {
         if (hold->is_held[i]) {
@@ -64,9 +64,9 @@ void mor_hold_find(mor_hold *hold, const double *region, int64_t n_particles, do
     for (int64_t i = 0; i < n_particles; ++i) {
         hold->is_held[i] = (int8_t)(time < hold->released[region != NULL ? (int)region[i] : 0]);
     }
-    for (int64_t block = 0; block < count_blocks(n_particles); ++block) {
-        const int64_t last = (block + 1) * MOR_SLEEP_PARTICLES;
-        list_block(hold, block, block * MOR_SLEEP_PARTICLES, last < n_particles ? last : n_particles);
+    for (int64_t cluster = 0; cluster < count_clusters(n_particles); ++cluster) {
+        const int64_t last = (cluster + 1) * MOR_CLUSTER;
+        list_cluster(hold, cluster, cluster * MOR_CLUSTER, last < n_particles ? last : n_particles);
     }
 }
 

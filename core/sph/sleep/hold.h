@@ -6,8 +6,8 @@
 #include "core/sph/sleep/sleep.h"
 
 /** @file
- *  Soil that is not released yet stands as it was placed, whatever pushes it. Blocks that hold nothing else sleep.
- *  Where a block holds other soil, too, it is computed, and what is not released is stopped within the step and put
+ *  Soil that is not released yet stands as it was placed, whatever pushes it. Clusters that hold nothing else sleep.
+ *  Where a cluster holds other soil, too, it is computed, and what is not released is stopped within the step and put
  *  back at its end. Theory: docs/theory/sleep.md. */
 
 enum { MOR_HOLD_REGIONS_MAX = 16 };
@@ -17,9 +17,9 @@ typedef struct mor_hold {
     double released[MOR_HOLD_REGIONS_MAX]; /* shape [n_regions]; time at which each region is, s */
     int n_regions;                         /* 0: all is from the start */
     int64_t n_held;                        /* particles that are held in this step */
-    int64_t n_mixed;                       /* of these, such in blocks with other soil */
+    int64_t n_mixed;                       /* of these, such in clusters with other soil */
     int8_t *is_held;                       /* shape [n_particles]; 1: it is held in this step; NULL without regions */
-    int8_t *blocks;                        /* shape [blocks]; 1: all particles of it are */
+    int8_t *clusters;                      /* shape [clusters]; 1: all particles of it are */
     int32_t *mixed;                        /* shape [n_mixed]; particles, rising */
     double *kept;     /* shape [capacity]; their values at the start of the step, units of the arrays */
     int64_t capacity; /* numbers there is room for */
@@ -55,7 +55,7 @@ void mor_hold_find(mor_hold *hold, const double *region, int64_t n_particles, do
  *  Returns: MOR_OK; MOR_ERROR_INTERNAL. */
 mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const double *velocity, int64_t n_particles);
 
-/** Keeps values of held particles in blocks with other soil.
+/** Keeps values of held particles in clusters with other soil.
  *  @param arrays   [in]  shape [n_arrays]
  *  @param n_arrays [in]  number of arrays
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only for more than ever before. */
@@ -66,7 +66,7 @@ mor_status mor_hold_keep(mor_context *context, mor_hold *hold, const mor_hold_ar
  *  @param n_arrays [in]      number of arrays */
 void mor_hold_put_back(const mor_hold *hold, const mor_hold_array *arrays, int n_arrays);
 
-/** Sets values of held particles in blocks with other soil to zero.
+/** Sets values of held particles in clusters with other soil to zero.
  *  @param data  [in,out]  shape [n_particles, width], any unit; NULL: nothing is done
  *  @param width [in]      of one particle */
 void mor_hold_stop(const mor_hold *hold, double *data, int width);

@@ -9,26 +9,25 @@
 #include <math.h>
 #include <string.h>
 
-/* Blocks a thread takes at once. */
-enum { GRAIN = 8 };
+/* GRAIN, CLUSTERS: clusters a thread takes at once, to decide and to compute. STACK: for 2^31 particles. */
+enum { GRAIN = 256, CLUSTERS = 32, STACK = 64 };
 
-static int64_t count_blocks(int64_t n_particles)
+static int64_t smaller(int64_t a, int64_t b)
 {
-    return (n_particles + MOR_SLEEP_PARTICLES - 1) / MOR_SLEEP_PARTICLES;
+    return a < b ? a : b;
 }
 
 mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_particles)
 {
-    const int64_t n = count_blocks(n_particles);
+    const int64_t n = (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER;
     memset(sleep, 0, sizeof *sleep);
-    sleep->n_blocks = n;
+    sleep->n_clusters = n;
     MOR_TRY(context, MOR_NEW(context, &sleep->states, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->calm, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->deep, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
-    MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of blocks"));
-    MOR_TRY(context, MOR_NEW(context, &sleep->cluster_boxes, 6 * n * MOR_SLEEP_CLUSTERS, "boxes of blocks"));
-    return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of blocks");
+    MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of clusters"));
+    return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of clusters");
 }
 
 void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
@@ -36,7 +35,6 @@ void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
     MOR_FREE(context, &sleep->rests);
     MOR_FREE(context, &sleep->neighbors);
     MOR_FREE(context, &sleep->boxes);
-    MOR_FREE(context, &sleep->cluster_boxes);
     MOR_FREE(context, &sleep->first);
     MOR_FREE(context, &sleep->at_bodies);
     MOR_FREE(context, &sleep->deep);
@@ -77,110 +75,64 @@ bool mor_sleep_body_rests(double *rest, const double *const places[3], double le
 
 void mor_sleep_forget_bodies(mor_sleep *sleep)
 {
-    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
-    memset(sleep->at_bodies, 0, (size_t)sleep->n_blocks);
+    memset(sleep->deep, 0, (size_t)sleep->n_clusters);
+    memset(sleep->at_bodies, 0, (size_t)sleep->n_clusters);
 }
 
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies)
 {
     for (int64_t place = 0; place < bodies->n_occupied; ++place) {
-        sleep->at_bodies[bodies->occupied[place] / MOR_SLEEP_CLUSTERS] = 1;
+        sleep->at_bodies[bodies->occupied[place]] = 1;
     }
 }
 
-/* Squared distance of two boxes given by their corners, m2. */
-static double find_distance2(const double *minimum, const double *maximum, const double *other_minimum,
-                             const double *other_maximum)
+/* The box of a cluster. */
+static void find_box(const mor_sleep *sleep, const mor_sleep_job *job, int64_t cluster)
 {
-    double distance2 = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double gap = mor_max(0.0, mor_max(other_minimum[a] - maximum[a], minimum[a] - other_maximum[a]));
-        distance2 += gap * gap;
-    }
-    return distance2;
+    const mor_tree points = {.n_points = job->n_particles};
+    mor_tree_bound_cluster(&points, job->position, 3, cluster, sleep->boxes + 6 * cluster);
 }
 
-static void empty_box(double *box)
+/* Whether particles of two clusters may be within reach. */
+static bool clusters_reach(const mor_sleep *sleep, double reach, int64_t cluster, int64_t other)
 {
-    for (int a = 0; a < 3; ++a) {
-        box[a] = INFINITY;
-        box[3 + a] = -INFINITY;
-    }
+    return mor_tree_box_gap2(sleep->boxes + 6 * cluster, sleep->boxes + 6 * other) <= reach * reach;
 }
 
-static void widen_box(double *box, const double *minimum, const double *maximum)
+/* Whether all particles of a cluster have been quiet for long enough. */
+static bool is_quiet(const mor_sleep_job *job, int64_t cluster)
 {
-    for (int a = 0; a < 3; ++a) {
-        box[a] = mor_min(box[a], minimum[a]);
-        box[3 + a] = mor_max(box[3 + a], maximum[a]);
-    }
-}
-
-/* The box of a block, and those of its clusters; one without particles is empty, and far from all. */
-static void find_boxes(const mor_sleep *sleep, const mor_sleep_job *job, int64_t block)
-{
-    double *box = sleep->boxes + 6 * block;
-    empty_box(box);
-    for (int64_t c = block * MOR_SLEEP_CLUSTERS; c < (block + 1) * MOR_SLEEP_CLUSTERS; ++c) {
-        double *own = sleep->cluster_boxes + 6 * c;
-        empty_box(own);
-        for (int64_t i = c * MOR_CLUSTER; i < (c + 1) * MOR_CLUSTER && i < job->n_particles; ++i) {
-            widen_box(own, job->position + 3 * i, job->position + 3 * i);
-        }
-        widen_box(box, own, own + 3);
-    }
-}
-
-/* Whether any box of the clusters of a block is within reach of a box. */
-static bool clusters_reach(const mor_sleep *sleep, double reach, int64_t block, const double *minimum,
-                           const double *maximum)
-{
-    bool does = false;
-    for (int64_t c = block * MOR_SLEEP_CLUSTERS; c < (block + 1) * MOR_SLEEP_CLUSTERS && !does; ++c) {
-        const double *own = sleep->cluster_boxes + 6 * c;
-        does = find_distance2(own, own + 3, minimum, maximum) <= reach * reach;
-    }
-    return does;
-}
-
-/* Whether particles of two blocks may be within reach. Blocks are no boxes: theirs overlap where they do not touch. */
-static bool blocks_reach(const mor_sleep *sleep, double reach, int64_t block, int64_t other)
-{
-    const double *box = sleep->boxes + 6 * block;
-    const double *beside = sleep->boxes + 6 * other;
-    bool do_reach = false;
-    if (find_distance2(box, box + 3, beside, beside + 3) > reach * reach) {
-        return false;
-    }
-    for (int64_t c = other * MOR_SLEEP_CLUSTERS; c < (other + 1) * MOR_SLEEP_CLUSTERS && !do_reach; ++c) {
-        const double *its = sleep->cluster_boxes + 6 * c;
-        do_reach = find_distance2(box, box + 3, its, its + 3) <= reach * reach &&
-                   clusters_reach(sleep, reach, block, its, its + 3);
-    }
-    return do_reach;
-}
-
-/* Whether all particles of a block have been quiet for long enough. */
-static bool is_quiet(const mor_sleep_job *job, int64_t block)
-{
-    const int64_t end = (block + 1) * MOR_SLEEP_PARTICLES;
+    const int64_t end = smaller((cluster + 1) * MOR_CLUSTER, job->n_particles);
     bool is = job->quiet_time != NULL;
-    for (int64_t i = block * MOR_SLEEP_PARTICLES; is && i < end && i < job->n_particles; ++i) {
+    for (int64_t i = cluster * MOR_CLUSTER; is && i < end; ++i) {
         is = is && job->quiet_time[i] >= job->after;
     }
     return is;
 }
 
-/* Counts the blocks whose boxes are within reach of that of a block; notes them where there is room. */
-static int64_t walk_boxes(const mor_sleep *sleep, double reach, int64_t block, int32_t *found)
+/* A node of the tree: the clusters from first on. */
+typedef struct node {
+    int64_t number, first, n_clusters;
+} node;
+
+/* Counts the clusters whose boxes are within reach of that of a cluster; notes them, rising, where there is room. */
+static int64_t walk_tree(const mor_sleep *sleep, const mor_tree *tree, double reach, int64_t cluster, int32_t *found)
 {
-    const double *box = sleep->boxes + 6 * block;
+    const double *box = sleep->boxes + 6 * cluster;
+    node stack[STACK] = {{0, 0, tree->n_clusters}};
     int64_t n = 0;
-    for (int64_t other = 0; other < sleep->n_blocks; ++other) {
-        const double *beside = sleep->boxes + 6 * other;
-        if (other != block && find_distance2(box, box + 3, beside, beside + 3) <= reach * reach) {
+    for (int depth = 1; depth > 0;) {
+        const node it = stack[--depth];
+        const int64_t left = mor_tree_left(it.n_clusters);
+        if (mor_tree_box_gap2(box, tree->boxes + 6 * it.number) > reach * reach) {
+            continue;
+        }
+        if (it.n_clusters > 1) {
+            stack[depth++] = (node){it.number + 2 * left, it.first + left, it.n_clusters - left};
+            stack[depth++] = (node){it.number + 1, it.first, left};
+        } else if (it.first != cluster) {
             if (found != NULL) {
-                found[n] = (int32_t)other;
+                found[n] = (int32_t)it.first;
             }
             n += 1;
         }
@@ -188,98 +140,126 @@ static int64_t walk_boxes(const mor_sleep *sleep, double reach, int64_t block, i
     return n;
 }
 
-mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const double *position, int64_t n_particles,
-                                    double reach)
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_tree *tree,
+                                    const double *position, double reach)
 {
-    const mor_sleep_job job = {.n_particles = n_particles, .position = position};
-    sleep->n_blocks = count_blocks(n_particles);
+    const mor_sleep_job job = {.n_particles = tree->n_points, .position = position};
+    const int64_t n = tree->n_clusters;
+    sleep->n_clusters = n;
     mor_sleep_forget_bodies(sleep);
-    MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
-        find_boxes(sleep, &job, block);
-    }
-    MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
-        sleep->first[block + 1] = walk_boxes(sleep, reach, block, NULL);
+    MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
+        find_box(sleep, &job, cluster);
+        sleep->first[cluster + 1] = walk_tree(sleep, tree, reach, cluster, NULL);
     }
     sleep->first[0] = 0;
-    for (int64_t block = 0; block < sleep->n_blocks; ++block) {
-        sleep->first[block + 1] += sleep->first[block];
+    for (int64_t cluster = 0; cluster < n; ++cluster) {
+        sleep->first[cluster + 1] += sleep->first[cluster];
     }
-    const int64_t needed = sleep->first[sleep->n_blocks];
+    const int64_t needed = sleep->first[n];
     if (needed > sleep->capacity) {
         MOR_FREE(context, &sleep->neighbors);
         sleep->capacity = 0;
-        MOR_TRY(context, MOR_NEW(context, &sleep->neighbors, needed + needed / 4, "neighbors of blocks"));
+        MOR_TRY(context, MOR_NEW(context, &sleep->neighbors, needed + needed / 4, "neighbors of clusters"));
         sleep->capacity = needed + needed / 4;
     }
-    MOR_PARALLEL_FOR (context, block, sleep->n_blocks, GRAIN) {
-        walk_boxes(sleep, reach, block, sleep->neighbors + sleep->first[block]);
+    MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
+        walk_tree(sleep, tree, reach, cluster, sleep->neighbors + sleep->first[cluster]);
     }
     return MOR_OK;
 }
 
-static bool sees_motion(const mor_sleep *sleep, const mor_sleep_job *job, int64_t block)
+static bool sees_motion(const mor_sleep *sleep, const mor_sleep_job *job, int64_t cluster)
 {
-    const double *box = sleep->boxes + 6 * block;
-    for (int k = 0; k < job->n_moving; ++k) {
-        const mor_sleep_box *it = &job->moving[k];
-        if (find_distance2(box, box + 3, it->minimum, it->maximum) <= job->reach * job->reach &&
-            clusters_reach(sleep, job->reach, block, it->minimum, it->maximum)) {
-            return true;
-        }
+    bool does = false;
+    for (int k = 0; k < job->n_moving && !does; ++k) {
+        double box[6];
+        memcpy(box, job->moving[k].minimum, sizeof job->moving[k].minimum);
+        memcpy(box + 3, job->moving[k].maximum, sizeof job->moving[k].maximum);
+        does = mor_tree_box_gap2(sleep->boxes + 6 * cluster, box) <= job->reach * job->reach;
     }
-    return false;
+    return does;
 }
 
-/* Whether all blocks within reach have a mark. The lists hold what was within more than that, so that distances of now
- * decide. */
-static bool have_all(const mor_sleep *sleep, double reach, int64_t block, const int8_t *marks, int8_t least)
+/* Whether all clusters within reach have a mark. The lists hold what was within more than that, so that distances of
+ * now decide. */
+static bool have_all(const mor_sleep *sleep, double reach, int64_t cluster, const int8_t *marks, int8_t least)
 {
-    for (int64_t k = sleep->first[block]; k < sleep->first[block + 1]; ++k) {
-        if (marks[sleep->neighbors[k]] < least && blocks_reach(sleep, reach, block, sleep->neighbors[k])) {
+    for (int64_t k = sleep->first[cluster]; k < sleep->first[cluster + 1]; ++k) {
+        if (marks[sleep->neighbors[k]] < least && clusters_reach(sleep, reach, cluster, sleep->neighbors[k])) {
             return false;
         }
     }
     return true;
 }
 
-/* Whether a block sleeps whatever moves. */
-static bool is_held(const mor_sleep_job *job, int64_t block)
+/* Whether a cluster sleeps whatever moves. */
+static bool is_held(const mor_sleep_job *job, int64_t cluster)
 {
-    return job->held != NULL && job->held[block];
+    return job->held != NULL && job->held[cluster];
 }
 
 void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job)
 {
-    const int64_t n = sleep->n_blocks;
-    MOR_PARALLEL_FOR (context, block, n, GRAIN) {
-        find_boxes(sleep, job, block);
-        sleep->calm[block] = (int8_t)(is_held(job, block) || (is_quiet(job, block) && !sees_motion(sleep, job, block)));
+    const int64_t n = sleep->n_clusters;
+    MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
+        find_box(sleep, job, cluster);
+        sleep->calm[cluster] =
+            (int8_t)(is_held(job, cluster) || (is_quiet(job, cluster) && !sees_motion(sleep, job, cluster)));
     }
-    MOR_PARALLEL_FOR (context, block, n, GRAIN) {
+    MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
         const bool sleeps =
-            is_held(job, block) || (sleep->calm[block] && have_all(sleep, job->reach, block, sleep->calm, 1));
-        sleep->states[block] = sleeps ? MOR_SLEEP_ASLEEP : MOR_SLEEP_AWAKE;
+            is_held(job, cluster) || (sleep->calm[cluster] && have_all(sleep, job->reach, cluster, sleep->calm, 1));
+        sleep->states[cluster] = sleeps ? MOR_SLEEP_ASLEEP : MOR_SLEEP_AWAKE;
     }
     /* Held is more than asleep, so that marking some does not hide others. */
-    MOR_PARALLEL_FOR (context, block, n, GRAIN) {
-        const bool is_deep = sleep->states[block] != MOR_SLEEP_AWAKE && !sleep->at_bodies[block] &&
-                             !(is_held(job, block) && sees_motion(sleep, job, block)) &&
-                             have_all(sleep, job->reach, block, sleep->states, MOR_SLEEP_ASLEEP);
-        sleep->calm[block] = (int8_t)is_deep;
+    MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
+        const bool is_deep = sleep->states[cluster] != MOR_SLEEP_AWAKE && !sleep->at_bodies[cluster] &&
+                             !(is_held(job, cluster) && sees_motion(sleep, job, cluster)) &&
+                             have_all(sleep, job->reach, cluster, sleep->states, MOR_SLEEP_ASLEEP);
+        sleep->calm[cluster] = (int8_t)is_deep;
     }
     sleep->n_asleep = 0;
-    for (int64_t block = 0; block < n; ++block) {
-        sleep->n_asleep += sleep->states[block] != MOR_SLEEP_AWAKE;
-        if (sleep->calm[block] && sleep->deep[block]) {
-            sleep->states[block] = MOR_SLEEP_HELD;
+    for (int64_t cluster = 0; cluster < n; ++cluster) {
+        sleep->n_asleep += sleep->states[cluster] != MOR_SLEEP_AWAKE;
+        if (sleep->calm[cluster] && sleep->deep[cluster]) {
+            sleep->states[cluster] = MOR_SLEEP_HELD;
         }
-        sleep->deep[block] = sleep->calm[block];
+        sleep->deep[cluster] = sleep->calm[cluster];
     }
 }
 
 void mor_sleep_wake(mor_sleep *sleep)
 {
-    memset(sleep->states, 0, (size_t)sleep->n_blocks);
-    memset(sleep->deep, 0, (size_t)sleep->n_blocks);
+    memset(sleep->states, 0, (size_t)sleep->n_clusters);
+    memset(sleep->deep, 0, (size_t)sleep->n_clusters);
     sleep->n_asleep = 0;
+}
+
+/* One past the last cluster from first on that sleeps, or is awake, as first does. */
+static int64_t find_run_end(const int8_t *states, int64_t first, int64_t last)
+{
+    const bool sleeps = mor_sleep_is(states, first, MOR_SLEEP_ASLEEP);
+    int64_t end = states == NULL ? last : first;
+    while (end < last && mor_sleep_is(states, end, MOR_SLEEP_ASLEEP) == sleeps) {
+        ++end;
+    }
+    return end;
+}
+
+int64_t mor_sleep_particles_end(const int8_t *states, int64_t first, int64_t last)
+{
+    const int64_t n_clusters = (last + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    return smaller(MOR_CLUSTER * find_run_end(states, first / MOR_CLUSTER, n_clusters), last);
+}
+
+void mor_sleep_run(mor_context *context, const int8_t *states, int64_t n_clusters, mor_sleep_work work,
+                   const void *owner, const void *job)
+{
+    MOR_PARALLEL_FOR (context, chunk, (n_clusters + CLUSTERS - 1) / CLUSTERS, 1) {
+        const int64_t last = smaller((chunk + 1) * CLUSTERS, n_clusters);
+        for (int64_t first = chunk * CLUSTERS, end = 0; first < last; first = end) {
+            end = find_run_end(states, first, last);
+            work(owner, job, first, end, mor_sleep_is(states, first, MOR_SLEEP_ASLEEP));
+        }
+    }
 }

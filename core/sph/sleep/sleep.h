@@ -7,18 +7,13 @@
 
 /** @file
  *  Soil that has come to rest sleeps: it is left out of the steps until something moves beside it. Particles are taken
- *  in blocks of 256 that follow one another in the order of the tree, and so lie together. A block is calm when all its
- *  particles have stayed below the limits for a time and no body or wall moves within its reach; it sleeps while it and
- *  all blocks within its reach are calm, so that soil that is computed never loses a neighbor that moves. What is
- *  decided is a function of positions, times of calm and order alone, whenever the lists were built, so that a resumed
- *  run decides alike. Theory: docs/theory/sleep.md. */
+ *  in the clusters of eight that they are computed in. A cluster is calm when all its particles have stayed below the
+ *  limits for a time and no body or wall moves within its reach; it sleeps while it and all clusters within its reach
+ *  are calm, so that soil that is computed never loses a neighbor that moves. What is decided is a function of
+ *  positions, times of calm and order alone, whenever the lists were built, so that a resumed run decides alike.
+ *  Theory: docs/theory/sleep.md. */
 
-enum {
-    MOR_SLEEP_CLUSTERS = 32,                               /* clusters in a block */
-    MOR_SLEEP_PARTICLES = MOR_SLEEP_CLUSTERS * MOR_CLUSTER /* particles in a block */
-};
-
-/** What a block does in a step. */
+/** What a cluster does in a step. */
 enum {
     MOR_SLEEP_AWAKE,  /* it is computed */
     MOR_SLEEP_ASLEEP, /* it stands still, but what walls do to it is found, for its neighbors may move */
@@ -32,25 +27,24 @@ enum {
     MOR_SLEEP_REST = 10
 };
 
-/** Particles by blocks, and which of them sleep. Owner: the soil. */
+/** Clusters of particles, and which of them sleep. Owner: the soil. */
 typedef struct mor_sleep {
-    int8_t *states;        /* shape [blocks]; as above; NULL: none ever sleeps */
-    int8_t *calm;          /* shape [blocks]; scratch, 1: no particle and nothing beside it moves */
-    int8_t *deep;          /* shape [blocks]; 1: it and all its neighbors slept in the last step */
-    int8_t *at_bodies;     /* shape [blocks]; 1: points of bodies are on its lists */
-    double *cluster_boxes; /* shape [blocks * MOR_SLEEP_CLUSTERS, 6]; likewise of their clusters, m */
-    double *boxes;         /* shape [blocks, 6]; minimum and maximum corner of the particles, m */
-    int64_t *first;        /* shape [blocks + 1]; of each block's neighbors, and one past the last */
-    int32_t *neighbors;    /* shape [capacity]; blocks beside each block, without itself */
-    double *rests;         /* shape [n_rests, MOR_SLEEP_REST]; of bodies, units of the enum; NULL: there are none */
-    int64_t n_rests;       /* patches of bodies */
-    int64_t capacity;      /* neighbors there is room for */
-    int64_t n_blocks;      /* in use */
-    int64_t n_asleep;      /* blocks that sleep in this step */
-    double momentum[3];    /* taken from particles that fell asleep, kg m/s (kg/s) */
-    double kinetic;        /* energy taken likewise, J (J/m) */
-    double impulse[3];     /* given by soil that was computed to soil that slept, N s (N s/m) */
-    uint64_t n_left_out;   /* particle-steps that were not computed */
+    int8_t *states;      /* shape [clusters]; as above; NULL: none ever sleeps */
+    int8_t *calm;        /* shape [clusters]; scratch, 1: no particle and nothing beside it moves */
+    int8_t *deep;        /* shape [clusters]; 1: it and all its neighbors slept in the last step */
+    int8_t *at_bodies;   /* shape [clusters]; 1: points of bodies are on its lists */
+    double *boxes;       /* shape [clusters, 6]; minimum and maximum corner of the particles, m */
+    int64_t *first;      /* shape [clusters + 1]; of each cluster's neighbors, and one past the last */
+    int32_t *neighbors;  /* shape [capacity]; clusters beside each cluster, without itself */
+    double *rests;       /* shape [n_rests, MOR_SLEEP_REST]; of bodies, units of the enum; NULL: there are none */
+    int64_t n_rests;     /* patches of bodies */
+    int64_t capacity;    /* neighbors there is room for */
+    int64_t n_clusters;  /* in use */
+    int64_t n_asleep;    /* clusters that sleep in this step */
+    double momentum[3];  /* taken from particles that fell asleep, kg m/s (kg/s) */
+    double kinetic;      /* energy taken likewise, J (J/m) */
+    double impulse[3];   /* given by soil that was computed to soil that slept, N s (N s/m) */
+    uint64_t n_left_out; /* particle-steps that were not computed */
 } mor_sleep;
 
 /** Something that moves: what is near does not sleep. */
@@ -63,7 +57,7 @@ typedef struct mor_sleep_job {
     int64_t n_particles;
     const double *position;   /* shape [n_particles, 3], m */
     const double *quiet_time; /* shape [n_particles]; for which each has stayed below the limits, s; NULL: for none */
-    const int8_t *held;       /* shape [blocks]; 1: it sleeps whatever moves; NULL: none does */
+    const int8_t *held;       /* shape [clusters]; 1: it sleeps whatever moves; NULL: none does */
     double after;             /* time of calm after which a particle may sleep, s */
     double reach;             /* support of the kernel, m */
     const mor_sleep_box *moving; /* shape [n_moving] */
@@ -79,14 +73,14 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
 /** Frees what it owns; accepts a zeroed one. */
 void mor_sleep_clear(mor_context *context, mor_sleep *sleep);
 
-/** Finds which blocks may see one another, after each build of the lists.
- *  @param position    [in]      shape [n_particles, 3], unit m
- *  @param n_particles [in]      number of particles, at most those there is room for
- *  @param reach       [in]      of boxes that may come within the support of the kernel before the next build, unit m
- *  Gives: no block is held, and none is at bodies.
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more neighbors than ever before. */
-mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const double *position, int64_t n_particles,
-                                    double reach);
+/** Finds which clusters may see one another, after each build of the lists.
+ *  @param tree     [in]  fitted to the particles, at most as many as there is room for
+ *  @param position [in]  shape [tree->n_points, 3], unit m; to which the tree is fitted
+ *  @param reach    [in]  of boxes that may come within the support of the kernel before the next build, unit m
+ *  Gives: no cluster is held, and none is at bodies.
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: O(n log n); allocates only for more neighbors than ever before. */
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_tree *tree,
+                                    const double *position, double reach);
 
 /** Makes room for more bodies, before the first step.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
@@ -102,27 +96,45 @@ mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bo
 bool mor_sleep_body_rests(double *rest, const double *const places[3], double length, double displacement,
                           double after);
 
-/** Takes no block for held, and none for one at bodies: their lists are built anew. */
+/** Takes no cluster for held, and none for one at bodies: their lists are built anew. */
 void mor_sleep_forget_bodies(mor_sleep *sleep);
 
-/** Keeps blocks that list points of bodies from being held: forces on bodies are found in every step.
+/** Keeps clusters that list points of bodies from being held: forces on bodies are found in every step.
  *  @param bodies [in]      particle -> points of bodies, current */
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies);
 
-/** Decides which blocks sleep in this step.
+/** Decides which clusters sleep in this step.
  *  @param sleep [in,out]  states and n_asleep are set */
 void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job);
 
-/** Wakes all blocks for this step. */
+/** Wakes all clusters for this step. */
 void mor_sleep_wake(mor_sleep *sleep);
 
-/** Whether the block of a cluster is at least in a state.
- *  @param states  [in]  shape [blocks]; NULL: all are awake
+/** Whether a cluster is at least in a state.
+ *  @param states  [in]  shape [clusters]; NULL: all are awake
  *  @param cluster [in]  of the soil
  *  @param state   [in]  MOR_SLEEP_ASLEEP or MOR_SLEEP_HELD */
 static inline bool mor_sleep_is(const int8_t *states, int64_t cluster, int state)
 {
-    return states != NULL && states[cluster / MOR_SLEEP_CLUSTERS] >= state;
+    return states != NULL && states[cluster] >= state;
 }
+
+/** Returns one past the last particle from first on, at most last, that sleeps, or is awake, as first does.
+ *  @param states [in]  shape [clusters]; NULL: all are awake
+ *  @param first  [in]  first of the particles of a cluster, below last
+ *  @param last   [in]  one past the last particle that is asked for */
+int64_t mor_sleep_particles_end(const int8_t *states, int64_t first, int64_t last);
+
+/** Does something for clusters [first, last), all of which sleep or all of which are awake. */
+typedef void (*mor_sleep_work)(const void *owner, const void *job, int64_t first, int64_t last, bool sleeps);
+
+/** Runs over clusters, those that sleep apart from those that are awake, by ranges that one thread takes at once.
+ *  @param states     [in]  shape [clusters]; NULL: all are awake
+ *  @param n_clusters [in]  of the soil
+ *  @param work       [in]  writes what belongs to its own clusters only
+ *  @param owner      [in]  passed on to it
+ *  @param job        [in]  passed on to it */
+void mor_sleep_run(mor_context *context, const int8_t *states, int64_t n_clusters, mor_sleep_work work,
+                   const void *owner, const void *job);
 
 #endif

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Which blocks of particles sleep, against a search over all pairs of blocks. */
+/* Which clusters of particles sleep, against a search over all pairs of clusters. */
 #include "core/base/random.h"
 #include "core/sph/sleep/sleep.h"
 
@@ -11,15 +11,16 @@
 
 #include <cmocka.h>
 
-enum { BLOCKS = 60, N = BLOCKS * MOR_SLEEP_PARTICLES - 37 };
+enum { CLUSTERS = 60, N = CLUSTERS * MOR_CLUSTER - 3 };
 
-/* Blocks are boxes one meter wide in a row that has gaps, filled at random; a particle sees all within REACH. */
+/* Clusters are boxes up to one meter wide in a row that has gaps; a particle sees all within REACH. */
 #define REACH 0.3
 #define AFTER 0.5
 
 typedef struct row {
     mor_context context;
     mor_sleep sleep;
+    mor_tree tree;
     double position[3 * N + 3 * MOR_CLUSTER];
     double quiet[N];
 } row;
@@ -33,16 +34,18 @@ static int open_row(void **state)
     mor_context_init(&it.context);
     it.context.n_threads = 2;
     for (int64_t i = 0; i < N; ++i) {
-        const int64_t block = i / MOR_SLEEP_PARTICLES;
-        const double gap = 0.25 * (double)(block % 3); /* 0, 0.25 and 0.5 m: the last one is out of reach */
+        const int64_t cluster = i / MOR_CLUSTER;
+        const double gap = 0.25 * (double)(cluster % 3); /* 0, 0.25 and 0.5 m: the last one is out of reach */
         for (int a = 0; a < 3; ++a) {
             it.position[3 * i + a] = mor_random_uniform(1, (uint64_t)i, (uint64_t)a);
         }
-        it.position[3 * i] += 1.5 * (double)block + gap - 0.5 * (double)(block % 5);
+        it.position[3 * i] += 1.5 * (double)cluster + gap - 0.5 * (double)(cluster % 5);
         it.quiet[i] = 1.0;
     }
+    assert_int_equal(mor_tree_init(&it.context, &it.tree, N), MOR_OK);
+    mor_tree_fit(&it.tree, it.position, 3);
     assert_int_equal(mor_sleep_init(&it.context, &it.sleep, N), MOR_OK);
-    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, it.position, N, 2.0 * REACH), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.tree, it.position, 2.0 * REACH), MOR_OK);
     return 0;
 }
 
@@ -50,6 +53,7 @@ static int close_row(void **state)
 {
     (void)state;
     mor_sleep_clear(&it.context, &it.sleep);
+    mor_tree_clear(&it.context, &it.tree);
     assert_int_equal(it.context.memory_bytes, 0);
     return 0;
 }
@@ -79,90 +83,84 @@ static void find_cluster_box(int64_t cluster, double box[2][3])
     }
 }
 
-/* Least distance of the boxes of two blocks' clusters, m. */
+/* Distance of the boxes of two clusters, m. */
 static double find_gap(int64_t a, int64_t b)
 {
-    double least = INFINITY;
-    for (int64_t c = a * MOR_SLEEP_CLUSTERS; c < (a + 1) * MOR_SLEEP_CLUSTERS; ++c) {
-        double own[2][3];
-        find_cluster_box(c, own);
-        for (int64_t d = b * MOR_SLEEP_CLUSTERS; d < (b + 1) * MOR_SLEEP_CLUSTERS; ++d) {
-            double other[2][3];
-            double sum = 0.0;
-            find_cluster_box(d, other);
-            for (int axis = 0; axis < 3; ++axis) {
-                const double gap = fmax(0.0, fmax(other[0][axis] - own[1][axis], own[0][axis] - other[1][axis]));
-                sum += gap * gap;
-            }
-            least = fmin(least, sum);
-        }
+    double own[2][3];
+    double other[2][3];
+    double sum = 0.0;
+    find_cluster_box(a, own);
+    find_cluster_box(b, other);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double gap = fmax(0.0, fmax(other[0][axis] - own[1][axis], own[0][axis] - other[1][axis]));
+        sum += gap * gap;
     }
-    return sqrt(least);
+    return sqrt(sum);
 }
 
-/* One particle in each of some blocks is not quiet. */
-static void block_sleeps_where_all_blocks_in_reach_are_calm(void **state)
+/* One particle in each of some clusters is not quiet. */
+static void cluster_sleeps_where_all_clusters_in_reach_are_calm(void **state)
 {
     (void)state;
-    bool is_calm[BLOCKS];
+    bool is_calm[CLUSTERS];
     int n_asleep = 0;
-    for (int64_t block = 0; block < BLOCKS; ++block) {
-        is_calm[block] = mor_random_uniform(2, (uint64_t)block, 0) > 0.2;
-        it.quiet[block * MOR_SLEEP_PARTICLES + 100] = is_calm[block] ? 1.0 : 0.9 * AFTER;
+    for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
+        is_calm[cluster] = mor_random_uniform(2, (uint64_t)cluster, 0) > 0.2;
+        it.quiet[cluster * MOR_CLUSTER + 2] = is_calm[cluster] ? 1.0 : 0.9 * AFTER;
     }
     decide(NULL, 0);
-    for (int64_t block = 0; block < BLOCKS; ++block) {
+    for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
         bool sleeps = true;
-        for (int64_t other = 0; other < BLOCKS; ++other) {
-            sleeps = sleeps && (is_calm[other] || find_gap(block, other) > REACH);
+        for (int64_t other = 0; other < CLUSTERS; ++other) {
+            sleeps = sleeps && (is_calm[other] || find_gap(cluster, other) > REACH);
         }
-        assert_int_equal(it.sleep.states[block] != MOR_SLEEP_AWAKE, sleeps);
+        assert_int_equal(it.sleep.states[cluster] != MOR_SLEEP_AWAKE, sleeps);
         n_asleep += sleeps;
     }
     assert_int_equal(it.sleep.n_asleep, n_asleep);
-    assert_true(n_asleep > 5 && n_asleep < BLOCKS - 5);
+    assert_true(n_asleep > 5 && n_asleep < CLUSTERS - 5);
 }
 
-static void block_beside_something_that_moves_is_awake(void **state)
+static void cluster_beside_something_that_moves_is_awake(void **state)
 {
     (void)state;
-    const double x = it.position[3 * 30 * MOR_SLEEP_PARTICLES];
+    const double x = it.position[3 * 30 * MOR_CLUSTER];
     const mor_sleep_box box = {{x, 0.5, 0.5}, {x + 0.1, 0.6, 0.6}};
     decide(&box, 1);
     assert_int_equal(it.sleep.states[30], MOR_SLEEP_AWAKE);
     assert_int_not_equal(it.sleep.states[0], MOR_SLEEP_AWAKE);
 }
 
-/* What walls do to a block is known once it and all around it have slept in the step before; not where bodies are, and
- * not after new lists. */
-static void block_is_held_from_the_second_step_of_sleep_on(void **state)
+/* What walls do to a cluster is known once it and all around it have slept in the step before; not where bodies are,
+ * and not after new lists. */
+static void cluster_is_held_from_the_second_step_of_sleep_on(void **state)
 {
     (void)state;
     decide(NULL, 0);
-    for (int64_t block = 0; block < BLOCKS; ++block) {
-        assert_int_equal(it.sleep.states[block], MOR_SLEEP_ASLEEP);
+    for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
+        assert_int_equal(it.sleep.states[cluster], MOR_SLEEP_ASLEEP);
     }
     it.sleep.at_bodies[7] = 1;
     decide(NULL, 0);
     decide(NULL, 0);
-    for (int64_t block = 0; block < BLOCKS; ++block) {
-        assert_int_equal(it.sleep.states[block], block == 7 ? MOR_SLEEP_ASLEEP : MOR_SLEEP_HELD);
+    for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
+        assert_int_equal(it.sleep.states[cluster], cluster == 7 ? MOR_SLEEP_ASLEEP : MOR_SLEEP_HELD);
     }
-    it.quiet[20 * MOR_SLEEP_PARTICLES] = 0.0;
+    it.quiet[20 * MOR_CLUSTER] = 0.0;
     decide(NULL, 0);
     assert_int_equal(it.sleep.states[20], MOR_SLEEP_AWAKE);
-    for (int64_t block = 0; block < BLOCKS; ++block) {
-        const bool is_near = find_gap(block, 20) <= REACH;
-        assert_true(it.sleep.states[block] == MOR_SLEEP_AWAKE || !is_near);
-        for (int64_t other = 0; other < BLOCKS; ++other) { /* none that sees one that is awake */
-            assert_true(it.sleep.states[block] != MOR_SLEEP_HELD || it.sleep.states[other] != MOR_SLEEP_AWAKE ||
-                        find_gap(block, other) > REACH);
+    for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
+        const bool is_near = find_gap(cluster, 20) <= REACH;
+        assert_true(it.sleep.states[cluster] == MOR_SLEEP_AWAKE || !is_near);
+        for (int64_t other = 0; other < CLUSTERS; ++other) { /* none that sees one that is awake */
+            assert_true(it.sleep.states[cluster] != MOR_SLEEP_HELD || it.sleep.states[other] != MOR_SLEEP_AWAKE ||
+                        find_gap(cluster, other) > REACH);
         }
     }
-    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, it.position, N, 2.0 * REACH), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.tree, it.position, 2.0 * REACH), MOR_OK);
     decide(NULL, 0);
-    for (int64_t block = 0; block < BLOCKS; ++block) {
-        assert_int_not_equal(it.sleep.states[block], MOR_SLEEP_HELD);
+    for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
+        assert_int_not_equal(it.sleep.states[cluster], MOR_SLEEP_HELD);
     }
     mor_sleep_wake(&it.sleep);
     assert_int_equal(it.sleep.n_asleep, 0);
@@ -201,10 +199,10 @@ static void a_body_that_creeps_moves_on_in_the_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(block_sleeps_where_all_blocks_in_reach_are_calm, open_row, close_row),
-        cmocka_unit_test_setup_teardown(block_beside_something_that_moves_is_awake, open_row, close_row),
+        cmocka_unit_test_setup_teardown(cluster_sleeps_where_all_clusters_in_reach_are_calm, open_row, close_row),
+        cmocka_unit_test_setup_teardown(cluster_beside_something_that_moves_is_awake, open_row, close_row),
         cmocka_unit_test(a_body_that_creeps_moves_on_in_the_end),
-        cmocka_unit_test_setup_teardown(block_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
+        cmocka_unit_test_setup_teardown(cluster_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
