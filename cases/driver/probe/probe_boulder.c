@@ -5,6 +5,7 @@
 
 #include "cases/driver/probe/probe_row_internal.h"
 #include "core/base/math.h"
+#include "core/base/memory.h"
 #include "core/base/parallel.h"
 
 #include <stdlib.h>
@@ -214,26 +215,72 @@ typedef struct column {
     double volume, raised, lowest, highest;
 } column;
 
-/* The column around a body: as wide as the body, but no less than two spacings to each side. */
-static void find_column(const view *v, const mor_body *body, column *it)
+/* Particles that follow one another, and so lie together: a column leaves out at once those it does not meet. */
+enum { BUNCH = 64 };
+
+typedef struct bunch {
+    double center[3], radius; /* of a sphere around them, m */
+} bunch;
+
+static int64_t find_bunch_end(const view *v, int64_t k)
 {
-    const double volume = find_volume(body);
-    const double pi = 3.14159265358979323846;
-    const double radius = v->points.dimension == 2 ? sqrt(volume / pi) : cbrt(0.75 * volume / pi);
-    const double reach = fmax(radius, 2.0 * v->points.spacing);
-    const double *up = v->frame.up;
-    *it = (column){.lowest = INFINITY, .highest = -INFINITY};
-    for (int64_t i = 0; i < v->points.n_points; ++i) {
+    const int64_t end = (k + 1) * BUNCH;
+    return end < v->points.n_points ? end : v->points.n_points;
+}
+
+static void find_bunch(const view *v, int64_t k, bunch *it)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY};
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double half[3];
+    for (int64_t i = k * BUNCH; i < find_bunch_end(v, k); ++i) {
+        for (int a = 0; a < 3; ++a) {
+            low[a] = mor_min(low[a], v->points.position[3 * i + a]);
+            high[a] = mor_max(high[a], v->points.position[3 * i + a]);
+        }
+    }
+    for (int a = 0; a < 3; ++a) {
+        it->center[a] = 0.5 * (low[a] + high[a]);
+        half[a] = 0.5 * (high[a] - low[a]);
+    }
+    it->radius = 1.001 * mor_vector_length(half); /* rounding leaves out none */
+}
+
+/* The squared distance of a place from the vertical through the center of a body, m2. */
+static double find_beside2(const view *v, const mor_body *body, const double *place)
+{
+    const double offset[3] = {place[0] - body->center[0], place[1] - body->center[1], place[2] - body->center[2]};
+    const double rise = mor_vector_dot(offset, v->frame.up);
+    return mor_vector_dot(offset, offset) - rise * rise;
+}
+
+static void add_to_column(const view *v, const mor_body *body, double reach, int64_t k, column *it)
+{
+    for (int64_t i = k * BUNCH; i < find_bunch_end(v, k); ++i) {
         const double *place = v->points.position + 3 * i;
-        const double offset[3] = {place[0] - body->center[0], place[1] - body->center[1], place[2] - body->center[2]};
-        const double height = mor_vector_dot(place, up);
-        const double rise = mor_vector_dot(offset, up);
-        if (mor_vector_dot(offset, offset) - rise * rise <= reach * reach) {
+        const double height = mor_vector_dot(place, v->frame.up);
+        if (find_beside2(v, body, place) <= reach * reach) {
             const double part = v->points.mass[i] / v->points.density[i];
             it->volume += part;
             it->raised += part * height;
             it->lowest = fmin(it->lowest, height);
             it->highest = fmax(it->highest, height);
+        }
+    }
+}
+
+/* The column around a body: as wide as the body, but no less than two spacings to each side. */
+static void find_column(const view *v, const bunch *bunches, const mor_body *body, column *it)
+{
+    const double volume = find_volume(body);
+    const double pi = 3.14159265358979323846;
+    const double radius = v->points.dimension == 2 ? sqrt(volume / pi) : cbrt(0.75 * volume / pi);
+    const double reach = fmax(radius, 2.0 * v->points.spacing);
+    *it = (column){.lowest = INFINITY, .highest = -INFINITY};
+    for (int64_t k = 0; k * BUNCH < v->points.n_points; ++k) {
+        const double farthest = reach + bunches[k].radius;
+        if (find_beside2(v, body, bunches[k].center) <= farthest * farthest) {
+            add_to_column(v, body, reach, k, it);
         }
     }
 }
@@ -244,14 +291,21 @@ static mor_status boulder_height(mor_context *context, const view *v, double *va
     double sum = 0.0;
     double volume = 0.0;
     const int n = v->simulation->the_case->n_bodies;
+    const int64_t n_bunches = (v->points.n_points + BUNCH - 1) / BUNCH;
     column columns[MOR_CASE_BODIES_MAX];
+    bunch *bunches = NULL;
+    MOR_TRY(context, MOR_NEW(context, &bunches, n_bunches, "soil beside boulders"));
+    MOR_PARALLEL_FOR (context, k, n_bunches, 64) {
+        find_bunch(v, k, &bunches[k]);
+    }
     MOR_PARALLEL_FOR (context, k, n, 1) {
         const mor_body *body = find_boulder(v, (int)k);
         columns[k] = (column){.volume = 0.0};
         if (body != NULL && mor_probe_is_inside(v, body->center)) {
-            find_column(v, body, &columns[k]);
+            find_column(v, bunches, body, &columns[k]);
         }
     }
+    MOR_FREE(context, &bunches);
     for (int k = 0; k < n; ++k) {
         const column *it = &columns[k];
         if (it->volume > 0.0) {

@@ -24,6 +24,7 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
     sleep->n_clusters = n;
     MOR_TRY(context, MOR_NEW(context, &sleep->states, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->calm, n, "states of sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->restless, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->deep, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of clusters"));
@@ -38,6 +39,7 @@ void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
     MOR_FREE(context, &sleep->first);
     MOR_FREE(context, &sleep->at_bodies);
     MOR_FREE(context, &sleep->deep);
+    MOR_FREE(context, &sleep->restless);
     MOR_FREE(context, &sleep->calm);
     MOR_FREE(context, &sleep->states);
     memset(sleep, 0, sizeof *sleep);
@@ -99,15 +101,44 @@ static bool clusters_reach(const mor_sleep *sleep, double reach, int64_t cluster
     return mor_tree_box_gap2(sleep->boxes + 6 * cluster, sleep->boxes + 6 * other) <= reach * reach;
 }
 
-/* Whether all particles of a cluster have been quiet for long enough. */
-static bool is_quiet(const mor_sleep_job *job, int64_t cluster)
+/* The particles of a cluster that have not been quiet for long enough. */
+static uint8_t find_restless(const mor_sleep_job *job, int64_t cluster)
 {
-    const int64_t end = smaller((cluster + 1) * MOR_CLUSTER, job->n_particles);
-    bool is = job->quiet_time != NULL;
-    for (int64_t i = cluster * MOR_CLUSTER; is && i < end; ++i) {
-        is = is && job->quiet_time[i] >= job->after;
+    const int64_t first = cluster * MOR_CLUSTER;
+    unsigned found = 0;
+    for (int64_t i = first; i < first + MOR_CLUSTER && i < job->n_particles; ++i) {
+        const bool is_quiet = job->quiet_time != NULL && job->quiet_time[i] >= job->after;
+        found |= is_quiet ? 0U : 1U << (i - first);
     }
-    return is;
+    return (uint8_t)found;
+}
+
+/* Whether a particle is within reach of one of a cluster. */
+static bool particle_reaches(const mor_sleep_job *job, int64_t particle, int64_t cluster)
+{
+    const double *x = job->position + 3 * particle;
+    const int64_t end = smaller((cluster + 1) * MOR_CLUSTER, job->n_particles);
+    bool does = false;
+    for (int64_t i = cluster * MOR_CLUSTER; i < end && !does; ++i) {
+        const double *y = job->position + 3 * i;
+        const double r[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+        does = mor_vector_dot(r, r) <= job->reach * job->reach;
+    }
+    return does;
+}
+
+/* Whether a particle beside a cluster that is not quiet is within reach of one of it. */
+static bool sees_restless(const mor_sleep *sleep, const mor_sleep_job *job, int64_t cluster)
+{
+    bool does = false;
+    for (int64_t k = sleep->first[cluster]; k < sleep->first[cluster + 1] && !does; ++k) {
+        const int64_t other = sleep->neighbors[k];
+        const unsigned restless = clusters_reach(sleep, job->reach, cluster, other) ? sleep->restless[other] : 0U;
+        for (int lane = 0; lane < MOR_CLUSTER && !does; ++lane) {
+            does = (restless >> lane & 1U) != 0 && particle_reaches(job, other * MOR_CLUSTER + lane, cluster);
+        }
+    }
+    return does;
 }
 
 /* A node of the tree: the clusters from first on. */
@@ -203,12 +234,12 @@ void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_jo
     const int64_t n = sleep->n_clusters;
     MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
         find_box(sleep, job, cluster);
+        sleep->restless[cluster] = is_held(job, cluster) ? 0 : find_restless(job, cluster);
         sleep->calm[cluster] =
-            (int8_t)(is_held(job, cluster) || (is_quiet(job, cluster) && !sees_motion(sleep, job, cluster)));
+            (int8_t)(is_held(job, cluster) || (sleep->restless[cluster] == 0 && !sees_motion(sleep, job, cluster)));
     }
     MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
-        const bool sleeps =
-            is_held(job, cluster) || (sleep->calm[cluster] && have_all(sleep, job->reach, cluster, sleep->calm, 1));
+        const bool sleeps = is_held(job, cluster) || (sleep->calm[cluster] && !sees_restless(sleep, job, cluster));
         sleep->states[cluster] = sleeps ? MOR_SLEEP_ASLEEP : MOR_SLEEP_AWAKE;
     }
     /* Held is more than asleep, so that marking some does not hide others. */

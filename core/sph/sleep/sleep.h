@@ -8,8 +8,8 @@
 /** @file
  *  Soil that has come to rest sleeps: it is left out of the steps until something moves beside it. Particles are taken
  *  in the clusters of eight that they are computed in. A cluster is calm when all its particles have stayed below the
- *  limits for a time and no body or wall moves within its reach; it sleeps while it and all clusters within its reach
- *  are calm, so that soil that is computed never loses a neighbor that moves. What is decided is a function of
+ *  limits for a time and no body or wall moves within its reach; it sleeps while it is calm and all particles within
+ *  reach of its own have stayed below the limits, so that soil that is computed never loses a neighbor that moves. What is decided is a function of
  *  positions, times of calm and order alone, whenever the lists were built, so that a resumed run decides alike.
  *  Theory: docs/theory/sleep.md. */
 
@@ -31,6 +31,7 @@ enum {
 typedef struct mor_sleep {
     int8_t *states;      /* shape [clusters]; as above; NULL: none ever sleeps */
     int8_t *calm;        /* shape [clusters]; scratch, 1: no particle and nothing beside it moves */
+    uint8_t *restless;   /* shape [clusters]; scratch, bit k: particle k of it is not quiet */
     int8_t *deep;        /* shape [clusters]; 1: it and all its neighbors slept in the last step */
     int8_t *at_bodies;   /* shape [clusters]; 1: points of bodies are on its lists */
     double *boxes;       /* shape [clusters, 6]; minimum and maximum corner of the particles, m */

@@ -14,7 +14,7 @@
 enum { CLUSTERS = 60, N = CLUSTERS * MOR_CLUSTER - 3 };
 
 /* Clusters are boxes up to one meter wide in a row that has gaps; a particle sees all within REACH. */
-#define REACH 0.3
+#define REACH 0.6
 #define AFTER 0.5
 
 typedef struct row {
@@ -98,27 +98,45 @@ static double find_gap(int64_t a, int64_t b)
     return sqrt(sum);
 }
 
+/* Least distance of a particle from those of a cluster, m. */
+static double find_distance(int64_t particle, int64_t cluster)
+{
+    double least = INFINITY;
+    for (int64_t i = cluster * MOR_CLUSTER; i < (cluster + 1) * MOR_CLUSTER && i < N; ++i) {
+        double sum = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double way = it.position[3 * i + axis] - it.position[3 * particle + axis];
+            sum += way * way;
+        }
+        least = fmin(least, sqrt(sum));
+    }
+    return least;
+}
+
 /* One particle in each of some clusters is not quiet. */
-static void cluster_sleeps_where_all_clusters_in_reach_are_calm(void **state)
+static void cluster_sleeps_where_all_particles_in_reach_are_quiet(void **state)
 {
     (void)state;
     bool is_calm[CLUSTERS];
     int n_asleep = 0;
+    int n_beside = 0;
     for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
         is_calm[cluster] = mor_random_uniform(2, (uint64_t)cluster, 0) > 0.2;
-        it.quiet[cluster * MOR_CLUSTER + 2] = is_calm[cluster] ? 1.0 : 0.9 * AFTER;
+        it.quiet[cluster * MOR_CLUSTER + cluster % 5] = is_calm[cluster] ? 1.0 : 0.9 * AFTER;
     }
     decide(NULL, 0);
     for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
-        bool sleeps = true;
+        bool sleeps = is_calm[cluster];
         for (int64_t other = 0; other < CLUSTERS; ++other) {
-            sleeps = sleeps && (is_calm[other] || find_gap(cluster, other) > REACH);
+            const bool is_seen = find_distance(other * MOR_CLUSTER + other % 5, cluster) <= REACH;
+            sleeps = sleeps && (is_calm[other] || !is_seen);
+            n_beside += is_calm[cluster] && !is_calm[other] && is_seen;
         }
         assert_int_equal(it.sleep.states[cluster] != MOR_SLEEP_AWAKE, sleeps);
         n_asleep += sleeps;
     }
     assert_int_equal(it.sleep.n_asleep, n_asleep);
-    assert_true(n_asleep > 5 && n_asleep < CLUSTERS - 5);
+    assert_true(n_beside > 0 && n_asleep > 5 && n_asleep < CLUSTERS - 5);
 }
 
 static void cluster_beside_something_that_moves_is_awake(void **state)
@@ -150,7 +168,7 @@ static void cluster_is_held_from_the_second_step_of_sleep_on(void **state)
     decide(NULL, 0);
     assert_int_equal(it.sleep.states[20], MOR_SLEEP_AWAKE);
     for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
-        const bool is_near = find_gap(cluster, 20) <= REACH;
+        const bool is_near = find_distance(20 * MOR_CLUSTER, cluster) <= REACH;
         assert_true(it.sleep.states[cluster] == MOR_SLEEP_AWAKE || !is_near);
         for (int64_t other = 0; other < CLUSTERS; ++other) { /* none that sees one that is awake */
             assert_true(it.sleep.states[cluster] != MOR_SLEEP_HELD || it.sleep.states[other] != MOR_SLEEP_AWAKE ||
@@ -199,7 +217,7 @@ static void a_body_that_creeps_moves_on_in_the_end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(cluster_sleeps_where_all_clusters_in_reach_are_calm, open_row, close_row),
+        cmocka_unit_test_setup_teardown(cluster_sleeps_where_all_particles_in_reach_are_quiet, open_row, close_row),
         cmocka_unit_test_setup_teardown(cluster_beside_something_that_moves_is_awake, open_row, close_row),
         cmocka_unit_test(a_body_that_creeps_moves_on_in_the_end),
         cmocka_unit_test_setup_teardown(cluster_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
