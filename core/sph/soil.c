@@ -498,6 +498,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
                  ? 0.0
                  : padded * mor_pair_singles_bytes(soil->extra != NULL, soil->settings.scheme.artificial_stress,
                                                    soil->settings.scheme.reconstruction == 1, soil->of_soil != NULL);
+    bytes += soil->sleep.states != NULL ? mor_sleep_bytes(&soil->sleep) : 0.0;
     bytes += soil->closed != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->extra != NULL ? padded * (double)MOR_EXTRA_SIZE * sizeof(double) : 0.0;
     bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);

@@ -65,7 +65,7 @@ mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_p
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil);
 
-/** Finds which blocks have points of bodies on their lists, after each build of these or of the particles' lists.
+/** Finds which clusters have points of bodies on their lists, after each build of these or of the particles' lists.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_soil_list_sleep_bodies(mor_context *context, mor_soil *soil);
 

@@ -231,7 +231,11 @@ mor_status mor_soil_regularize(mor_context *context, void *owner, mor_view *view
     mor_soil *soil = owner;
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
     arrays.regularization = mor_view_write_shared(view, MOR_RESOURCE_REGULARIZATION, soil->regularization);
-    mor_soil_run_pairs(context, &soil->constants, &arrays, soil->table->regularize);
+    const int64_t n = soil->tree.n_clusters;
+    MOR_PARALLEL_FOR (context, chunk, (n + CLUSTERS - 1) / CLUSTERS, 1) {
+        const int64_t last = (chunk + 1) * CLUSTERS;
+        soil->table->regularize(&soil->constants, &arrays, chunk * CLUSTERS, last < n ? last : n);
+    }
     regularization job = {.xsph = step->length * soil->settings.scheme.xsph,
                           .shifting = soil->settings.scheme.shifting ? step->length : 0.0,
                           .sums = arrays.regularization,

@@ -108,11 +108,15 @@ static mor_quiet_limits find_limits(const mor_soil *soil)
 {
     const mor_scheme *scheme = &soil->settings.scheme;
     const double gravity = mor_vector_length(soil->settings.gravity);
+    double density = INFINITY; /* of the lightest soil */
+    for (int k = 0; k < soil->n_kinds; ++k) {
+        density = mor_min(density, soil->kinds[k].reference_density);
+    }
     return (mor_quiet_limits){.after = scheme->sleep_after,
                               .displacement = scheme->sleep_displacement * soil->settings.spacing,
                               .speed = scheme->sleep_speed * sqrt(gravity * soil->settings.spacing),
                               .stress = scheme->sleep_stress,
-                              .least = soil->kinds[0].reference_density * gravity * soil->settings.spacing};
+                              .least_stress = density * gravity * soil->settings.spacing};
 }
 
 mor_status mor_soil_list_sleep_bodies(mor_context *context, mor_soil *soil)
@@ -297,8 +301,10 @@ mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *vie
     for (int a = 0; a < 3; ++a) {
         sleep->impulse[a] -= step->length * force[a];
     }
-    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        sleep->n_left_out += mor_sleep_is(sleep->states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+    const int64_t last = sleep->n_clusters - 1; /* it may have fewer particles */
+    sleep->n_left_out += (uint64_t)(sleep->n_asleep * MOR_CLUSTER);
+    if (mor_sleep_is(sleep->states, last, MOR_SLEEP_ASLEEP)) {
+        sleep->n_left_out -= (uint64_t)(sleep->n_clusters * MOR_CLUSTER - soil->set.n_particles);
     }
     return MOR_OK;
 }

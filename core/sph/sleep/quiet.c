@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* The square of a symmetric tensor's length. */
-static double square_of(const double *t)
+static double find_square(const double *t)
 {
     return mor_vector_dot(t, t) + 2.0 * mor_vector_dot(t + 3, t + 3);
 }
@@ -22,8 +22,8 @@ static bool has_stress(const mor_quiet_limits *limits, const double *stress, con
     for (int a = 0; a < 6; ++a) {
         change[a] = stress[a] - was[a];
     }
-    const double allowed = limits->stress * (limits->least + sqrt(square_of(was)));
-    return square_of(change) < allowed * allowed;
+    const double allowed = limits->stress * (limits->least_stress + sqrt(find_square(was)));
+    return find_square(change) < allowed * allowed;
 }
 
 /* Whether a particle is quiet in this step. */

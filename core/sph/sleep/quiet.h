@@ -18,7 +18,7 @@ typedef struct mor_quiet_limits {
     double displacement; /* in that time, m */
     double speed;        /* m/s */
     double stress;       /* change in that time over the stress, 1 */
-    double least;        /* added to the stress, Pa */
+    double least_stress; /* added to the stress, Pa */
 } mor_quiet_limits;
 
 /** Particles in a step. Borrowed. */
@@ -36,7 +36,10 @@ typedef struct mor_quiet_job {
     double *was;            /* shape [n_particles, 6]; its stress then, Pa */
 } mor_quiet_job;
 
-/** Counts on for how long each particle has been quiet, at the end of a step. */
+/** Counts on for how long each particle has been quiet, at the end of a step.
+ *  @param limits [in]  one object
+ *  @param job    [in]  one object; its last four arrays are read and written
+ *  Cost: one pass over the particles, allocates nothing. */
 void mor_quiet_find(mor_context *context, const mor_quiet_limits *limits, const mor_quiet_job *job);
 
 #endif

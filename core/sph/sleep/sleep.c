@@ -259,6 +259,12 @@ void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_jo
     }
 }
 
+double mor_sleep_bytes(const mor_sleep *sleep)
+{
+    const double of_cluster = 5.0 + (double)sizeof *sleep->first + 6.0 * (double)sizeof *sleep->boxes;
+    return of_cluster * (double)sleep->n_clusters + (double)sleep->capacity * (double)sizeof *sleep->neighbors;
+}
+
 void mor_sleep_wake(mor_sleep *sleep)
 {
     memset(sleep->states, 0, (size_t)sleep->n_clusters);

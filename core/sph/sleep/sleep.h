@@ -9,9 +9,9 @@
  *  Soil that has come to rest sleeps: it is left out of the steps until something moves beside it. Particles are taken
  *  in the clusters of eight that they are computed in. A cluster is calm when all its particles have stayed below the
  *  limits for a time and no body or wall moves within its reach; it sleeps while it is calm and all particles within
- *  reach of its own have stayed below the limits, so that soil that is computed never loses a neighbor that moves. What is decided is a function of
- *  positions, times of calm and order alone, whenever the lists were built, so that a resumed run decides alike.
- *  Theory: docs/theory/sleep.md. */
+ *  reach of its own have stayed below the limits, so that soil that is computed never loses a neighbor that moves. What
+ *  is decided is a function of positions, times of calm and order alone, whenever the lists were built, so that a
+ *  resumed run decides alike. Theory: docs/theory/sleep.md. */
 
 /** What a cluster does in a step. */
 enum {
@@ -107,6 +107,9 @@ void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies);
 /** Decides which clusters sleep in this step.
  *  @param sleep [in,out]  states and n_asleep are set */
 void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job);
+
+/** Returns the memory of clusters and of the lists of their neighbors, bytes. */
+double mor_sleep_bytes(const mor_sleep *sleep);
 
 /** Wakes all clusters for this step. */
 void mor_sleep_wake(mor_sleep *sleep);

@@ -122,7 +122,7 @@ static mor_status check_gap(mor_context *context, const mor_case *c, const mor_c
     return MOR_OK;
 }
 
-/* Soil that stands lies in blocks, as soil that sleeps. */
+/* Soil that stands is left out, as soil that sleeps. */
 static mor_status check_released(const mor_case_reader *reader, const mor_case_node *node, const mor_case *c)
 {
     for (int k = 0; k < c->n_soils; ++k) {

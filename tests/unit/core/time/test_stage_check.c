@@ -44,6 +44,7 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     scene->settings.scheme.angular_momentum_by = is_fitted;
     scene->settings.scheme.sleep_after = 1.0;
     scene->settings.scheme.sleep_displacement = scene->settings.scheme.sleep_speed = 0.1;
+    scene->settings.scheme.sleep_stress = 0.1;
     scene->settings.scheme.xsph = 0.1;
     scene->settings.scheme.shifting = true;
     scene->settings.scheme.density_reinitialization = 1;

@@ -26,6 +26,11 @@ static void soil_that_stands_has_no_velocity(void **state)
     assert_int_equal(mor_hold_init(&context, &hold, N, released, 2), MOR_OK);
     mor_hold_find(&hold, region, N, 0.5);
     assert_int_equal(hold.n_held, 200);
+    /* 100 is in the middle of cluster 12, whose others move; the last has four particles. */
+    assert_int_equal(hold.n_mixed, 4);
+    assert_int_equal(hold.mixed[0], 100);
+    assert_true(hold.clusters[11] == 0 && hold.clusters[12] == 0);
+    assert_true(hold.clusters[13] == 1 && hold.clusters[N / MOR_CLUSTER] == 1);
     assert_int_equal(mor_hold_check(&context, &hold, velocity, N), MOR_OK); /* the others move */
     velocity[3 * 250 + 2] = -1e-300;
     assert_int_equal(mor_hold_check(&context, &hold, velocity, N), MOR_ERROR_INTERNAL);

@@ -14,7 +14,7 @@ enum { N = 8, STEPS = 100 };
 
 /* Limits and steps are powers of two, so that times add up without rounding. */
 static const mor_quiet_limits limits = {
-    .after = 0.25, .displacement = 0.125, .speed = 1.0, .stress = 0.5, .least = 8.0};
+    .after = 0.25, .displacement = 0.125, .speed = 1.0, .stress = 0.5, .least_stress = 8.0};
 #define STEP 0.0625
 
 typedef struct grains {
@@ -97,6 +97,27 @@ static void load_that_grows_slowly_is_not_quiet(void **state)
     assert_true(it.was[6] == -6.9 && it.was[0] == 0.0);
 }
 
+/* In the time after which soil sleeps the stress may change by half of itself and 8 Pa. Particle 0 is loaded by just
+ * less, particle 1 by just more; both from no stress, where only the 8 Pa count. */
+static void load_within_the_limit_of_each_span_is_quiet_however_far_it_leads(void **state)
+{
+    grains it;
+    (void)state;
+    open_grains(&it);
+    for (int step = 0; step < 4; ++step) {
+        it.stress[2] -= 0.96 * 4.0 / 4.0;
+        it.stress[6 + 2] -= 1.04 * 4.0 / 4.0;
+        take_step(&it, false, NULL);
+    }
+    assert_true(it.quiet[0] == 4.0 * STEP && it.quiet[1] == 0.0);
+    assert_true(it.was[2] == it.stress[2]); /* the next span counts from here */
+    for (int step = 0; step < STEPS; ++step) {
+        it.stress[2] -= 0.96 * 5.0 / 4.0; /* half of 8 Pa and a stress of 3.84 Pa that grows: 5.92 Pa and more */
+        take_step(&it, false, NULL);
+    }
+    assert_true(it.quiet[0] == (4.0 + STEPS) * STEP);
+}
+
 static void soil_that_sleeps_or_is_relaxed_does_not_count_on(void **state)
 {
     const int8_t asleep[] = {MOR_SLEEP_ASLEEP};
@@ -116,6 +137,7 @@ int main(void)
         cmocka_unit_test(creep_below_the_limit_is_quiet_however_far_it_leads),
         cmocka_unit_test(a_particle_that_is_fast_is_not_quiet_though_it_returns),
         cmocka_unit_test(load_that_grows_slowly_is_not_quiet),
+        cmocka_unit_test(load_within_the_limit_of_each_span_is_quiet_however_far_it_leads),
         cmocka_unit_test(soil_that_sleeps_or_is_relaxed_does_not_count_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

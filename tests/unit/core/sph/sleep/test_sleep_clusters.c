@@ -214,12 +214,56 @@ static void a_body_that_creeps_moves_on_in_the_end(void **state)
     assert_int_equal(count_rests(0.1, 0.0), 0); /* 20 mm in 0.2 s, never still for 1 s */
 }
 
+enum { MANY = 203 };
+
+static void count_visit(const void *states, const void *visits, int64_t first, int64_t last, bool sleeps)
+{
+    assert_true(first < last && last <= MANY);
+    for (int64_t cluster = first; cluster < last; ++cluster) {
+        assert_int_equal(mor_sleep_is(states, cluster, MOR_SLEEP_ASLEEP), sleeps);
+        ((int *)visits)[cluster] += 1;
+    }
+}
+
+static void clusters_are_visited_once_those_that_sleep_apart(void **state)
+{
+    mor_context context;
+    int8_t states[MANY];
+    int visits[MANY] = {0};
+    (void)state;
+    mor_context_init(&context);
+    context.n_threads = 2;
+    for (int cluster = 0; cluster < MANY; ++cluster) {
+        states[cluster] = (int8_t)(3.0 * mor_random_uniform(3, (uint64_t)(cluster / 3), 0));
+    }
+    mor_sleep_run(&context, states, MANY, count_visit, states, visits);
+    mor_sleep_run(&context, NULL, MANY, count_visit, NULL, visits);
+    for (int cluster = 0; cluster < MANY; ++cluster) {
+        assert_int_equal(visits[cluster], 2);
+    }
+}
+
+static void particles_end_where_sleep_does_or_the_range(void **state)
+{
+    static const int8_t states[] = {MOR_SLEEP_AWAKE, MOR_SLEEP_AWAKE, MOR_SLEEP_HELD, MOR_SLEEP_ASLEEP,
+                                    MOR_SLEEP_AWAKE};
+    (void)state;
+    assert_int_equal(mor_sleep_particles_end(states, 0, 37), 16);
+    assert_int_equal(mor_sleep_particles_end(states, 0, 13), 13);
+    assert_int_equal(mor_sleep_particles_end(states, 16, 37), 32);
+    assert_int_equal(mor_sleep_particles_end(states, 24, 29), 29);
+    assert_int_equal(mor_sleep_particles_end(states, 32, 37), 37);
+    assert_int_equal(mor_sleep_particles_end(NULL, 8, 37), 37);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(cluster_sleeps_where_all_particles_in_reach_are_quiet, open_row, close_row),
         cmocka_unit_test_setup_teardown(cluster_beside_something_that_moves_is_awake, open_row, close_row),
         cmocka_unit_test(a_body_that_creeps_moves_on_in_the_end),
+        cmocka_unit_test(clusters_are_visited_once_those_that_sleep_apart),
+        cmocka_unit_test(particles_end_where_sleep_does_or_the_range),
         cmocka_unit_test_setup_teardown(cluster_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
