@@ -321,6 +321,43 @@ static void falling_ball_wakes_the_soil_under_it(void **state)
     scene_expect_near("depth of the ball / that in soil that never sleeps", depth[1] / depth[0], 1.0, 0.01);
 }
 
+/* First particle of a batch of the stress update that is awake behind others that sleep, which are behind some that are
+ * awake; -1: there is none. */
+static int64_t find_behind_sleepers(const mor_soil *soil)
+{
+    for (int64_t first = 0; first + MOR_SOIL_BATCH <= soil->set.n_particles; first += MOR_SOIL_BATCH) {
+        const int64_t last = first + MOR_SOIL_BATCH;
+        const int64_t asleep = mor_sleep_particles_end(soil->sleep.states, first, last);
+        const int64_t behind = asleep < last ? mor_sleep_particles_end(soil->sleep.states, asleep, last) : last;
+        if (behind < last && !mor_sleep_is(soil->sleep.states, first / MOR_CLUSTER, MOR_SLEEP_ASLEEP)) {
+            return behind;
+        }
+    }
+    return -1;
+}
+
+/* A law fails where its state is no number. */
+static void law_that_fails_behind_soil_that_sleeps_names_its_particle(void **state)
+{
+    char name[64];
+    int64_t particle = -1;
+    (void)state;
+    scene *it = open_bed(sleeping, nothing, 1);
+    mor_soil *soil = &it->simulation.soil;
+    for (int step = 0; step < 400 && particle < 0; ++step) {
+        scene_step(it, 1);
+        particle = find_behind_sleepers(soil);
+    }
+    assert_true(particle >= 0);
+    snprintf(name, sizeof name, "particle %lld of", (long long)soil->set.id[particle]);
+    const int field = soil->state_fields[0];
+    soil->set.data[field][particle * soil->set.fields[field].n_components] = NAN;
+    assert_int_not_equal(mor_schedule_step(&it->context, &it->simulation.schedule, it->simulation.schedule.end),
+                         MOR_OK);
+    assert_non_null(strstr(it->context.message, name));
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +370,7 @@ int main(void)
         cmocka_unit_test(momentum_that_sleep_takes_is_accounted_for),
         cmocka_unit_test(soil_that_sleeps_takes_no_energy),
         cmocka_unit_test(falling_ball_wakes_the_soil_under_it),
+        cmocka_unit_test(law_that_fails_behind_soil_that_sleeps_names_its_particle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

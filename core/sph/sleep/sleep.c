@@ -133,7 +133,9 @@ static bool sees_restless(const mor_sleep *sleep, const mor_sleep_job *job, int6
     bool does = false;
     for (int64_t k = sleep->first[cluster]; k < sleep->first[cluster + 1] && !does; ++k) {
         const int64_t other = sleep->neighbors[k];
-        const unsigned restless = clusters_reach(sleep, job->reach, cluster, other) ? sleep->restless[other] : 0U;
+        const unsigned restless = sleep->restless[other] != 0 && clusters_reach(sleep, job->reach, cluster, other)
+                                      ? sleep->restless[other]
+                                      : 0U;
         for (int lane = 0; lane < MOR_CLUSTER && !does; ++lane) {
             does = (restless >> lane & 1U) != 0 && particle_reaches(job, other * MOR_CLUSTER + lane, cluster);
         }
