@@ -172,8 +172,16 @@ static uint64_t find_hills_checksum(const char *skin, double *share)
     const char *const settings[] = {skin, NULL};
     scene *it = scene_new(&(scene_request){hills, (const char *const *[]){settings}, 1, 2});
     it->simulation.soil.settings.scheme.sleep_after = 0.005; /* too short for a case, but much falls asleep and wakes */
-    scene_step(it, 60);
-    const uint64_t checksum = mor_set_checksum(&it->simulation.soil.set);
+    const mor_soil *soil = &it->simulation.soil;
+    uint64_t n_left_out = 0;
+    for (int step = 0; step < 60; ++step) {
+        scene_step(it, 1);
+        for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+            n_left_out += mor_sleep_is(soil->sleep.states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+        }
+    }
+    assert_true(soil->sleep.n_left_out == n_left_out);
+    const uint64_t checksum = mor_set_checksum(&soil->set);
     *share = find_share(it);
     scene_free(it);
     return checksum;

@@ -216,24 +216,24 @@ typedef struct column {
 } column;
 
 /* Particles that follow one another, and so lie together: a column leaves out at once those it does not meet. */
-enum { BUNCH = 64 };
+enum { BLOCK = 64 };
 
-typedef struct bunch {
+typedef struct block {
     double center[3], radius; /* of a sphere around them, m */
-} bunch;
+} block;
 
-static int64_t find_bunch_end(const view *v, int64_t k)
+static int64_t find_block_end(const view *v, int64_t k)
 {
-    const int64_t end = (k + 1) * BUNCH;
+    const int64_t end = (k + 1) * BLOCK;
     return end < v->points.n_points ? end : v->points.n_points;
 }
 
-static void find_bunch(const view *v, int64_t k, bunch *it)
+static void find_block(const view *v, int64_t k, block *it)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY};
     double high[3] = {-INFINITY, -INFINITY, -INFINITY};
     double half[3];
-    for (int64_t i = k * BUNCH; i < find_bunch_end(v, k); ++i) {
+    for (int64_t i = k * BLOCK; i < find_block_end(v, k); ++i) {
         for (int a = 0; a < 3; ++a) {
             low[a] = mor_min(low[a], v->points.position[3 * i + a]);
             high[a] = mor_max(high[a], v->points.position[3 * i + a]);
@@ -256,7 +256,7 @@ static double find_beside2(const view *v, const mor_body *body, const double *pl
 
 static void add_to_column(const view *v, const mor_body *body, double reach, int64_t k, column *it)
 {
-    for (int64_t i = k * BUNCH; i < find_bunch_end(v, k); ++i) {
+    for (int64_t i = k * BLOCK; i < find_block_end(v, k); ++i) {
         const double *place = v->points.position + 3 * i;
         const double height = mor_vector_dot(place, v->frame.up);
         if (find_beside2(v, body, place) <= reach * reach) {
@@ -270,16 +270,16 @@ static void add_to_column(const view *v, const mor_body *body, double reach, int
 }
 
 /* The column around a body: as wide as the body, but no less than two spacings to each side. */
-static void find_column(const view *v, const bunch *bunches, const mor_body *body, column *it)
+static void find_column(const view *v, const block *blocks, const mor_body *body, column *it)
 {
     const double volume = find_volume(body);
     const double pi = 3.14159265358979323846;
     const double radius = v->points.dimension == 2 ? sqrt(volume / pi) : cbrt(0.75 * volume / pi);
     const double reach = fmax(radius, 2.0 * v->points.spacing);
     *it = (column){.lowest = INFINITY, .highest = -INFINITY};
-    for (int64_t k = 0; k * BUNCH < v->points.n_points; ++k) {
-        const double farthest = reach + bunches[k].radius;
-        if (find_beside2(v, body, bunches[k].center) <= farthest * farthest) {
+    for (int64_t k = 0; k * BLOCK < v->points.n_points; ++k) {
+        const double farthest = reach + blocks[k].radius;
+        if (find_beside2(v, body, blocks[k].center) <= farthest * farthest) {
             add_to_column(v, body, reach, k, it);
         }
     }
@@ -291,21 +291,21 @@ static mor_status boulder_height(mor_context *context, const view *v, double *va
     double sum = 0.0;
     double volume = 0.0;
     const int n = v->simulation->the_case->n_bodies;
-    const int64_t n_bunches = (v->points.n_points + BUNCH - 1) / BUNCH;
+    const int64_t n_blocks = (v->points.n_points + BLOCK - 1) / BLOCK;
     column columns[MOR_CASE_BODIES_MAX];
-    bunch *bunches = NULL;
-    MOR_TRY(context, MOR_NEW(context, &bunches, n_bunches, "soil beside boulders"));
-    MOR_PARALLEL_FOR (context, k, n_bunches, 64) {
-        find_bunch(v, k, &bunches[k]);
+    block *blocks = NULL;
+    MOR_TRY(context, MOR_NEW(context, &blocks, n_blocks, "soil beside boulders"));
+    MOR_PARALLEL_FOR (context, k, n_blocks, 64) {
+        find_block(v, k, &blocks[k]);
     }
     MOR_PARALLEL_FOR (context, k, n, 1) {
         const mor_body *body = find_boulder(v, (int)k);
         columns[k] = (column){.volume = 0.0};
         if (body != NULL && mor_probe_is_inside(v, body->center)) {
-            find_column(v, bunches, body, &columns[k]);
+            find_column(v, blocks, body, &columns[k]);
         }
     }
-    MOR_FREE(context, &bunches);
+    MOR_FREE(context, &blocks);
     for (int k = 0; k < n; ++k) {
         const column *it = &columns[k];
         if (it->volume > 0.0) {
