@@ -201,6 +201,7 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
     mor_soil *soil = owner;
     (void)step;
     const mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
+    const mor_pair_singles *singles = soil->settings.scheme.precision == 1 ? &soil->singles : NULL;
     double *acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
@@ -215,7 +216,8 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
                                    .n_particles = arrays.n_particles};
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
-        mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner);
+        mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner,
+                                        singles);
         mor_soil_contact_sum_forces(context, contact, &seen, acceleration);
         if (soil->watch.run != NULL) {
             soil->watch.run(context, soil->watch.owner, contact, arrays.records, arrays.n_particles);

@@ -154,7 +154,7 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
         mor_soil_contact_close_corners(context, &f->wall, f->soil.n, corners);
         mor_soil_contact_hold(context, &f->wall, constants->smoothing_length, f->soil.n);
     }
-    mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation);
+    mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation, NULL);
     const mor_contact_soil seen = floor_soil(f, dissipation);
     mor_soil_contact_sum_forces(context, &f->wall, &seen, f->acceleration);
     mor_soil_contact_sum_gradient(context, &f->wall, f->soil.records, f->soil.n, f->velocity_gradient, f->density_rate);

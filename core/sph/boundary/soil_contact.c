@@ -395,7 +395,11 @@ static int64_t cut_lists(mor_soil_contact *contact)
             if (contact->boundary->patches[patch].is_removed) {
                 --n_slots;
             } else if (n_slots < contact->capacity) {
-                contact->slots[n_slots] = (mor_pair_slot){list + first, k - first, cluster, patch};
+                contact->slots[n_slots] = (mor_pair_slot){.list = list + first,
+                                                          .near = mor_relation_near(relation, cluster) + first,
+                                                          .count = k - first,
+                                                          .cluster = cluster,
+                                                          .patch = patch};
             }
         }
     }

@@ -9,6 +9,7 @@
 #include "core/particle/relation_check.h"
 #include "core/particle/skin.h"
 #include "core/sph/pair/pair.h"
+#include "core/sph/pair/pair_single.h"
 #include "core/sph/sleep/sleep.h"
 
 /** @file
@@ -323,10 +324,11 @@ void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *co
  *  @param contact   [in,out]  sums must be current
  *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_...
- *  @param inner     [in]      soil -> soil, current */
+ *  @param inner     [in]      soil -> soil, current
+ *  @param singles   [in]      copies of the records, for pairs in single precision; NULL: in double */
 void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                      const mor_pair_constants *constants, const double *records,
-                                     const mor_relation *inner);
+                                     const mor_relation *inner, const mor_pair_singles *singles);
 
 /** Adds the boundary's part of the acceleration and sets stick, and force and moment of the patches.
  *  @param contact      [in,out]  sums must be current

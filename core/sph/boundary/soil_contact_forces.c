@@ -61,13 +61,19 @@ void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *co
 
 void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                      const mor_pair_constants *constants, const double *records,
-                                     const mor_relation *inner)
+                                     const mor_relation *inner, const mor_pair_singles *singles)
 {
     const int64_t n = contact->n_slots;
     if (contact->stress == MOR_WALL_STRESS_UNIFORM) {
         return;
     }
-    const mor_pair_tangent_job job = {records, inner, contact->slots, contact->sums, contact->divergence};
+    const mor_pair_tangent_job job = {.records = records,
+                                      .singles = singles != NULL ? singles->records : NULL,
+                                      .is_wide = singles != NULL ? singles->is_wide : NULL,
+                                      .inner = inner,
+                                      .slots = contact->slots,
+                                      .sums = contact->sums,
+                                      .out = contact->divergence};
     MOR_PARALLEL_FOR (context, chunk, (n + GRAIN - 1) / GRAIN, 1) {
         const int64_t last = (chunk + 1) * GRAIN < n ? (chunk + 1) * GRAIN : n;
         int64_t first = chunk * GRAIN;

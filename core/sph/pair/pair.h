@@ -178,7 +178,9 @@ typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pai
 /** Eight particles that gather and what they see of one patch of a boundary: a run of their list. */
 typedef struct mor_pair_slot {
     const int32_t *list; /* shape [count]; targets, ascending */
+    int32_t *near;       /* shape [n_near], with room for count; those within the support, as kernel sums found them */
     int32_t count;       /* entries */
+    int32_t n_near;      /* entries of the short list */
     int32_t cluster;     /* of the particles that gather */
     int32_t patch;       /* of the boundary */
 } mor_pair_slot;
@@ -190,7 +192,7 @@ typedef struct mor_pair_kernel_job {
     int target_stride;            /* doubles per target record */
     const mor_relation *relation; /* source -> target; its clusters are the range when slots is NULL */
     double *sums;                 /* shape [(last - first) * 8, MOR_KERNEL_SUMS] of the range; units of the enum */
-    const mor_pair_slot *slots;   /* shape [n_slots]; the range when not NULL */
+    mor_pair_slot *slots;         /* shape [n_slots]; the range when not NULL; their short lists are written */
 } mor_pair_kernel_job;
 
 /** What a kernel job sums over the targets j of a particle i. */
@@ -204,9 +206,14 @@ enum {
 typedef void (*mor_pair_kernel_loop)(const mor_pair_constants *constants, const mor_pair_kernel_job *job, int64_t first,
                                      int64_t last);
 
+/** Sums of a stress' differences over a particle's neighbors: six components, by three of the separation. */
+enum { MOR_PAIR_DIFFERENCES = 6 * 3 };
+
 /** The stress divergence by soil neighbors, along and across a wall apart, for the particles that see it. */
 typedef struct mor_pair_tangent_job {
     const double *records;      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
+    const float *singles;       /* shape [n padded to 8, 16]; as in mor_pair_single_arrays; NULL: pairs in double */
+    const uint8_t *is_wide;     /* shape [clusters]; 1: its pairs are in double all the same; with singles */
     const mor_relation *inner;  /* current, with short lists */
     const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
     const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */

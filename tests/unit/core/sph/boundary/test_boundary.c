@@ -93,7 +93,7 @@ static void run(meeting *m, const mor_pair_table *table)
     memset(m->acceleration, 0, sizeof m->acceleration);
     assert_int_equal(mor_soil_contact_build(context, &m->contact, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &m->contact, table, c, m->soil.records);
-    mor_soil_contact_sum_divergence(context, &m->contact, table, c, m->soil.records, &m->soil.relation);
+    mor_soil_contact_sum_divergence(context, &m->contact, table, c, m->soil.records, &m->soil.relation, NULL);
     /* Where tension is held, friction limits the same at walls and rocks. */
     const mor_contact_soil seen = {.dissipation = MOR_DISSIPATION_BOTH,
                                    .coulomb_pulls = true,
@@ -132,6 +132,45 @@ static void slots_are_the_runs_of_the_lists(void **state)
     }
     assert_int_equal(n_entries, relation->n_entries);
     close_meeting(m);
+}
+
+/* Whether any particle of a slot reaches a point. */
+static bool is_reached(const meeting *m, const mor_pair_slot *slot, int32_t point)
+{
+    const double *place = m->records + MOR_BOUNDARY_RECORD * (int64_t)point;
+    bool is = false;
+    for (int64_t i = (int64_t)slot->cluster * MOR_CLUSTER; i < (slot->cluster + 1) * (int64_t)MOR_CLUSTER; ++i) {
+        const double *own = m->soil.records + i * MOR_RECORD_SIZE;
+        const double r[3] = {own[0] - place[0], own[1] - place[1], own[2] - place[2]};
+        is |= i < m->soil.n && mor_vector_length(r) < MOR_KERNEL_SUPPORT * m->soil.constants.smoothing_length;
+    }
+    return is;
+}
+
+static void short_lists_of_slots_hold_the_points_in_reach_alone(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    for (int option = 0; option < 2 * n_tables; ++option) {
+        meeting *m = open_meeting(2 + option % 2, MOR_WALL_STRESS_UNIFORM);
+        run(m, tables[option / 2]);
+        int64_t n_left_out = 0;
+        for (int64_t s = 0; s < m->contact.n_slots; ++s) {
+            const mor_pair_slot *slot = &m->contact.slots[s];
+            int32_t n_near = 0;
+            for (int32_t k = 0; k < slot->count; ++k) {
+                if (is_reached(m, slot, slot->list[k])) {
+                    assert_true(n_near < slot->n_near);
+                    assert_int_equal(slot->near[n_near++], slot->list[k]);
+                }
+            }
+            assert_int_equal(slot->n_near, n_near);
+            n_left_out += slot->count - n_near;
+        }
+        assert_true(n_left_out > 0);
+        close_meeting(m);
+    }
 }
 
 static void velocity_of_a_rock_is_the_mean_by_kernel_values(void **state)
@@ -440,6 +479,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slots_are_the_runs_of_the_lists),
+        cmocka_unit_test(short_lists_of_slots_hold_the_points_in_reach_alone),
         cmocka_unit_test(velocity_of_a_rock_is_the_mean_by_kernel_values),
         cmocka_unit_test(forces_on_points_have_force_and_moment_of_the_push),
         cmocka_unit_test(rocks_get_what_the_soil_loses),

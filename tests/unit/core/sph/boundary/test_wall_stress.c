@@ -192,7 +192,7 @@ static void divergence_of_every_table_is_that_of_a_double_loop(void **state)
         open_layer(&f, 2 + option % 2, MOR_WALL_ROUGH, MOR_WALL_STRESS_LINEAR);
         floor_run(&f, MOR_DISSIPATION_BOTH);
         mor_soil_contact_sum_divergence(&f.soil.context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
-                                        &f.soil.relation);
+                                        &f.soil.relation, NULL);
         int n_touching = 0;
         for (int64_t slot = 0; slot < MOR_CLUSTER * f.wall.relation.n_occupied; ++slot) {
             const int i = f.wall.relation.occupied[slot / MOR_CLUSTER] * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
@@ -207,6 +207,73 @@ static void divergence_of_every_table_is_that_of_a_double_loop(void **state)
             floor_assert_vector(f.wall.divergence + 6 * slot + 3, expected + 3, size);
         }
         assert_true(n_touching > 5);
+        floor_close(&f);
+    }
+}
+
+/* Roundings of 2^-24 that a sum in single precision meets: of its terms, those of places among them, and of up to 64
+ * additions. */
+#define SINGLE_ROUNDING ((64 + 64) * 0x1p-24)
+
+/* Of the products of a particle's sums, whose stresses are rounded before they are subtracted, Pa/m. */
+static double largest_terms(const assembly *a, int i)
+{
+    const double *own = a->records + i * MOR_RECORD_SIZE;
+    double stress = 0.0;
+    double weight = 0.0;
+    for (int j = 0; j < a->n; ++j) {
+        const double *other = a->records + j * MOR_RECORD_SIZE;
+        const double r[3] = {own[0] - other[0], own[1] - other[1], own[2] - other[2]};
+        const double distance = mor_vector_length(r);
+        stress = fmax(stress, assembly_largest(other + MOR_RECORD_STRESS, 6));
+        if (j != i) {
+            weight += other[MOR_RECORD_VOLUME] *
+                      fabs(mor_kernel_derivative(distance, a->constants.smoothing_length, a->constants.dimension));
+        }
+    }
+    return 6.0 * stress * weight;
+}
+
+static void divergence_in_mixed_precision_differs_by_roundings(void **state)
+{
+    (void)state;
+    const mor_pair_table *tables[3];
+    const int n_tables = assembly_tables(tables);
+    const mor_images none = {0};
+    for (int option = 0; option < 2 * n_tables; ++option) {
+        floor_case f;
+        open_layer(&f, 2 + option % 2, MOR_WALL_ROUGH, MOR_WALL_STRESS_LINEAR);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        mor_context *context = &f.soil.context;
+        mor_pair_arrays arrays = {.n_particles = f.soil.n, .records = f.soil.records};
+        mor_pair_singles singles = {0};
+        double in_double[6 * ASSEMBLY_MAX];
+        double error = 0.0;
+        memcpy(in_double, f.wall.divergence, 6 * (size_t)f.wall.n_slots * MOR_CLUSTER * sizeof *in_double);
+        assert_int_equal(mor_pair_singles_pack(context, &f.soil.constants, &none, &singles, &arrays), MOR_OK);
+        mor_soil_contact_sum_divergence(context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
+                                        &f.soil.relation, &singles);
+        for (int64_t slot = 0; slot < f.wall.n_slots * MOR_CLUSTER; ++slot) {
+            const int i = f.wall.slots[slot / MOR_CLUSTER].cluster * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
+            for (int k = 0; i < f.soil.n && k < 6; ++k) {
+                const double off = fabs(f.wall.divergence[6 * slot + k] - in_double[6 * slot + k]);
+                assert_true(off <= SINGLE_ROUNDING * largest_terms(&f.soil, i));
+                error = fmax(error, off);
+            }
+        }
+        assert_true(error > 0.0); /* they were summed in single precision */
+        /* A cluster that is too wide for places modulo 2^32 is summed in double. */
+        memset(singles.is_wide, 1, (size_t)f.soil.tree.n_clusters);
+        mor_soil_contact_sum_divergence(context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
+                                        &f.soil.relation, &singles);
+        for (int64_t slot = 0; slot < f.wall.n_slots * MOR_CLUSTER; ++slot) {
+            const int i = f.wall.slots[slot / MOR_CLUSTER].cluster * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
+            for (int k = 0; i < f.soil.n && k < 6; ++k) {
+                const double off = fabs(f.wall.divergence[6 * slot + k] - in_double[6 * slot + k]);
+                assert_true(off <= 256 * DBL_EPSILON * largest_terms(&f.soil, i)); /* some ulp of each term */
+            }
+        }
+        mor_pair_singles_clear(context, &singles);
         floor_close(&f);
     }
 }
@@ -226,10 +293,10 @@ static void wide_registers_give_the_same_divergence_as_wider_ones(void **state)
         const size_t n_bytes = (size_t)f.wall.relation.n_occupied * MOR_CLUSTER * 6 * sizeof(double);
         double narrow[6 * ASSEMBLY_MAX];
         mor_soil_contact_sum_divergence(&f.soil.context, &f.wall, avx2, &f.soil.constants, f.soil.records,
-                                        &f.soil.relation);
+                                        &f.soil.relation, NULL);
         memcpy(narrow, f.wall.divergence, n_bytes);
         mor_soil_contact_sum_divergence(&f.soil.context, &f.wall, avx512, &f.soil.constants, f.soil.records,
-                                        &f.soil.relation);
+                                        &f.soil.relation, NULL);
         assert_memory_equal(narrow, f.wall.divergence, n_bytes);
         floor_close(&f);
     }
@@ -306,6 +373,7 @@ int main(void)
         cmocka_unit_test(stress_continued_along_a_coulomb_wall_fades_where_soil_slides),
         cmocka_unit_test(linear_stress_is_felt_in_full_at_the_wall),
         cmocka_unit_test(divergence_of_every_table_is_that_of_a_double_loop),
+        cmocka_unit_test(divergence_in_mixed_precision_differs_by_roundings),
         cmocka_unit_test(wide_registers_give_the_same_divergence_as_wider_ones),
         cmocka_unit_test(continued_wall_gives_back_what_it_takes),
     };

@@ -1,0 +1,114 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+/* Differences of stress over the neighbors of a cluster, for pair_tangent_isa.c. Compiled once per instruction set and
+ * precision; MOR_ISA is the name of the set, MOR_SINGLE is defined for single precision. */
+#include "core/sph/pair/pair_lanes.h"
+
+/* Stress components that a pass over a chunk sums, by three of the separation: as many sums as stay in registers. */
+enum { IN_PASS = 3 };
+
+/* Adds V_j k (stress_i - stress_j)_s (r_i - r_j)_c of the pairs of a chunk, for three of the components s. */
+INLINE void add_differences(vec *sum, const geometries *chunk, const real *records, const int32_t *near, int size,
+                            const frame *f, const vec *stress, const int *components, const int dimension)
+{
+    vec part[IN_PASS][3];
+    for (int s = 0; s < IN_PASS; ++s) {
+        memcpy(part[s], sum + 3 * components[s], sizeof part[s]);
+    }
+    for (int q = 0; q < size; ++q) {
+        const real *target = records + (int64_t)near[q] * MOR_RECORD_SIZE;
+        const geometry g = geometry_at(chunk, q, 0);
+        vec r[3];
+        separation_at(r, chunk, q, f, target, dimension);
+        for (int a = 0; a < dimension; ++a) {
+            r[a] *= g.k;
+        }
+        for (int s = 0; s < IN_PASS; ++s) {
+            const vec difference = stress[components[s]] - target[MOR_RECORD_STRESS + components[s]];
+            for (int a = 0; a < dimension; ++a) {
+                part[s][a] = multiply_add(difference, r[a], part[s][a]);
+            }
+        }
+    }
+    for (int s = 0; s < IN_PASS; ++s) {
+        memcpy(sum + 3 * components[s], part[s], sizeof part[s]);
+    }
+}
+
+/* The sums over a chunk of the neighbors. */
+INLINE void sum_chunk(vec *sum, const real *records, const int32_t *near, int size, const frame *f, const vec *stress,
+                      const int dimension)
+{
+    static const int plane[IN_PASS] = {MOR_XX, MOR_YY, MOR_XY}; /* no others act along a plane */
+    static const int rest[IN_PASS] = {MOR_ZZ, MOR_YZ, MOR_ZX};
+    geometries chunk;
+    for (int q = 0; q < size; ++q) {
+        const real *target = records + (int64_t)near[q] * MOR_RECORD_SIZE;
+        vec r[3];
+        separate(r, f, target, dimension);
+        keep_separation(&chunk, q, r, squared(r, f, dimension), dimension);
+        find_geometry(&chunk, q, target, f, dimension, 0);
+    }
+    add_differences(sum, &chunk, records, near, size, f, stress, plane, dimension);
+    if (dimension == 3) {
+        add_differences(sum, &chunk, records, near, size, f, stress, rest, dimension);
+    }
+}
+
+/* Adds sums of a part of a cluster to those in double precision. */
+INLINE void add_sums(double (*sums)[MOR_CLUSTER], int part, const vec *sum, double unit)
+{
+    for (int k = 0; k < MOR_PAIR_DIFFERENCES; ++k) {
+        for (int lane = 0; lane < LANES; ++lane) {
+            sums[k][part * LANES + lane] += unit * (double)sum[k][lane];
+        }
+    }
+}
+
+INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t cluster, int part,
+                     double (*sums)[MOR_CLUSTER], const int dimension)
+{
+#if defined(MOR_SINGLE)
+    const real *records = job->singles;
+    const double unit =
+        mor_pair_length_unit(c->smoothing_length) * mor_pair_volume_unit(c->smoothing_length, c->dimension);
+#else
+    const real *records = job->records;
+    const double unit = 1.0;
+#endif
+    const real *own = records + (cluster * MOR_CLUSTER + (int64_t)part * LANES) * MOR_RECORD_SIZE;
+    const frame f = frame_of(c, own, MOR_RECORD_SIZE);
+    const int32_t *near = mor_relation_near(job->inner, cluster);
+    const int32_t count = job->inner->near_counts[cluster];
+    vec stress[6];
+    vec sum[MOR_PAIR_DIFFERENCES];
+    for (int a = 0; a < 6; ++a) {
+        stress[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
+    }
+    memset(sum, 0, sizeof sum);
+    for (int32_t entry = 0; entry < count; entry += CHUNK) {
+        const int size = count - entry < CHUNK ? count - entry : CHUNK;
+        for (int q = 0; q < size; ++q) {
+            const int32_t later = entry + q + AHEAD < count ? entry + q + AHEAD : entry + q;
+            ask_for(records + (int64_t)near[later] * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof *records, 0);
+        }
+        sum_chunk(sum, records, near + entry, size, &f, stress, dimension);
+        if (sizeof(real) == sizeof(float)) { /* singles add up within a chunk, doubles beyond */
+            add_sums(sums, part, sum, unit);
+            memset(sum, 0, sizeof sum);
+        }
+    }
+    add_sums(sums, part, sum, unit);
+}
+
+void LOOP_NAME(differences)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t cluster, double *sums)
+{
+    memset(sums, 0, MOR_PAIR_DIFFERENCES * MOR_CLUSTER * sizeof *sums);
+    for (int part = 0; part < PARTS; ++part) {
+        if (c->dimension == 2) {
+            sum_part(c, job, cluster, part, (double(*)[MOR_CLUSTER])sums, 2);
+        } else {
+            sum_part(c, job, cluster, part, (double(*)[MOR_CLUSTER])sums, 3);
+        }
+    }
+}
