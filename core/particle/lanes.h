@@ -6,6 +6,10 @@
 #include "core/base/isa.h"
 #include "core/particle/tree.h"
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 /** @file
  *  Numbers in lanes, for loops over clusters of eight particles that are compiled once per instruction set. Only files
  *  named *_isa.c include it; MOR_ISA is the name of the set. Not for others: the names are short. */
@@ -38,6 +42,24 @@ enum { PARTS = MOR_CLUSTER / LANES };
 typedef real vec __attribute__((vector_size(LANES * sizeof(real))));
 
 #define INLINE static inline __attribute__((always_inline))
+
+/** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
+INLINE int any_less(vec a, real b)
+{
+#if defined(MOR_SINGLE) && defined(__AVX__)
+    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, _mm256_set1_ps(b), _CMP_LT_OQ));
+#elif defined(__AVX512F__)
+    return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ);
+#elif defined(__AVX__)
+    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ));
+#else
+    int any = 0;
+    for (int lane = 0; lane < LANES; ++lane) {
+        any |= a[lane] < b;
+    }
+    return any;
+#endif
+}
 
 /** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
 INLINE vec load(const real *records, int stride, int component)

@@ -1,9 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Neighbor lists of a range of clusters. Compiled once per instruction set; MOR_ISA is its name. */
+#include "core/particle/lanes.h"
 #include "core/particle/relation_list.h"
-
-#include "core/base/isa.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,14 +31,9 @@ static double box_gap(const double *p, const double *q)
     return 0.25 * sum;
 }
 
-/* One number for each of the eight. */
-typedef double vec __attribute__((vector_size(MOR_CLUSTER * sizeof(double))));
-typedef int64_t mask __attribute__((vector_size(MOR_CLUSTER * sizeof(int64_t))));
-typedef int8_t narrow_mask __attribute__((vector_size(MOR_CLUSTER)));
-
 /* The eight source positions by component, and their box. */
 typedef struct lanes {
-    vec x, y, z;
+    vec x[3][PARTS];
     double box[6];
 } lanes;
 
@@ -50,15 +44,14 @@ static void load_lanes(const mor_relation_points *source, int64_t cluster, lanes
         int64_t i = cluster * MOR_CLUSTER + lane;
         i = i < source->tree->n_points ? i : source->tree->n_points - 1;
         const double *record = source->records + i * source->stride;
-        out->x[lane] = record[0];
-        out->y[lane] = record[1];
-        out->z[lane] = record[2];
+        for (int a = 0; a < 3; ++a) {
+            out->x[a][lane / LANES][lane % LANES] = record[a];
+        }
     }
-    const vec *components[3] = {&out->x, &out->y, &out->z};
     for (int a = 0; a < 3; ++a) {
-        out->box[a] = out->box[3 + a] = (*components[a])[0];
+        out->box[a] = out->box[3 + a] = out->x[a][0][0];
         for (int lane = 1; lane < MOR_CLUSTER; ++lane) {
-            const double x = (*components[a])[lane];
+            const double x = out->x[a][lane / LANES][lane % LANES];
             out->box[a] = x < out->box[a] ? x : out->box[a];
             out->box[3 + a] = x > out->box[3 + a] ? x : out->box[3 + a];
         }
@@ -68,15 +61,14 @@ static void load_lanes(const mor_relation_points *source, int64_t cluster, lanes
 /* One when one of the eight is nearer to a point than the square root of reach2, else zero. */
 static inline int64_t is_seen(const lanes *eight, const double *point, double reach2)
 {
-    const vec dx = eight->x - point[0];
-    const vec dy = eight->y - point[1];
-    const vec dz = eight->z - point[2];
-    const mask seen = dx * dx + dy * dy + dz * dz < reach2;
-    /* Eight bytes of all bits or none: one number to ask. */
-    const narrow_mask narrow = __builtin_convertvector(seen, narrow_mask);
-    uint64_t all = 0;
-    memcpy(&all, &narrow, sizeof all);
-    return all != 0;
+    int any = 0;
+    for (int part = 0; part < PARTS; ++part) {
+        const vec dx = eight->x[0][part] - point[0];
+        const vec dy = eight->x[1][part] - point[1];
+        const vec dz = eight->x[2][part] - point[2];
+        any |= any_less(dx * dx + dy * dy + dz * dz, reach2);
+    }
+    return any != 0;
 }
 
 /* Appends the points of one target cluster that one of the eight sees; returns their number. Entries are written

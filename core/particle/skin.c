@@ -166,18 +166,6 @@ static const double *built_of(const mor_skin_side *side, int64_t i)
     return side->built != NULL ? side->built + 3 * i : side->records + i * side->stride;
 }
 
-/* Compares the boxes of two clusters. */
-static bool boxes_hold(const check *it, const node_pair *pair)
-{
-    double box[6];
-    double other[6];
-    mor_tree_bound_cluster(it->source->tree, it->source->records, it->source->stride, pair->source.begin, box);
-    mor_tree_bound_cluster(it->target->tree, it->target->records, it->target->stride, pair->target.begin, other);
-    return mor_tree_box_gap2(box, other) > it->support * it->support ||
-           mor_tree_box_gap2(it->source->tree->boxes + 6 * pair->source.index,
-                             it->target->tree->boxes + 6 * pair->target.index) <= it->reach * it->reach;
-}
-
 /* Compares the points of two clusters. */
 static bool clusters_hold(const check *it, const node_pair *pair)
 {
@@ -185,8 +173,7 @@ static bool clusters_hold(const check *it, const node_pair *pair)
     const int64_t target = pair->target.begin;
     const double support2 = it->support * it->support;
     const double reach2 = it->reach * it->reach;
-    if (it->source->records == NULL || it->target->records == NULL ||
-        (it->source->asks_boxes && !boxes_hold(it, pair))) {
+    if (it->source->records == NULL || it->target->records == NULL) {
         return false;
     }
     for (int64_t i = source * MOR_CLUSTER; i < points_end(it->source, source); ++i) {

@@ -24,7 +24,6 @@ typedef struct mor_skin_side {
     double *ranges;      /* shape [2 * n_clusters - 1, 6]; least, then largest displacement of the points of a node, by
                             * axis, m; NULL: none is longer than the displacement */
     double displacement; /* longest one, where there are no ranges, m */
-    bool asks_boxes;     /* of the source: clusters see one another when their boxes are within the support */
 } mor_skin_side;
 
 /** Where particles were when lists of them were built, and a bound of how far they have moved since. Owner: whoever

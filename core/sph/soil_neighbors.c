@@ -66,8 +66,7 @@ static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *vi
         pack_soils(context, soil, state[0]);
     }
     if (soil->sleep.states != NULL) {
-        MOR_TRY(context,
-                mor_sleep_find_neighbors(context, &soil->sleep, points->tree, points->records, mor_soil_reach(soil)));
+        MOR_TRY(context, mor_sleep_find_neighbors(context, &soil->sleep, inner));
     }
     mor_skin_places_keep(context, &soil->list_places, position);
     soil->has_lists = true;
@@ -110,8 +109,7 @@ static bool lists_hold(mor_context *context, const mor_soil *soil, const double 
     if (mor_skin_is_bounded(drift, drift, skin) || soil->period.is_any || drift > FARTHEST * soil->smoothing_length) {
         return mor_skin_is_bounded(drift, drift, skin);
     }
-    mor_skin_side own = mor_skin_places_measure(context, &soil->list_places, position);
-    own.asks_boxes = soil->sleep.states != NULL;
+    const mor_skin_side own = mor_skin_places_measure(context, &soil->list_places, position);
     return mor_skin_holds(context, &own, &own, support, support + skin);
 }
 

@@ -114,15 +114,29 @@ static void sleep_depends_neither_on_threads_nor_on_when_lists_were_built(void *
     }
 }
 
-/* Whether clusters list all within the support, by boxes of this step. */
+/* Whether any particles of two clusters were within the support in this step. */
+static bool clusters_see(const mor_soil *soil, int64_t c, int64_t d)
+{
+    const double support = MOR_KERNEL_SUPPORT * soil->smoothing_length;
+    const int64_t n = soil->set.n_particles;
+    bool see = false;
+    for (int64_t i = c * MOR_CLUSTER; i < (c + 1) * MOR_CLUSTER && i < n; ++i) {
+        for (int64_t j = d * MOR_CLUSTER; j < (d + 1) * MOR_CLUSTER && j < n; ++j) {
+            const double *x = soil->records + i * MOR_RECORD_SIZE;
+            const double *y = soil->records + j * MOR_RECORD_SIZE;
+            const double r[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+            see |= mor_vector_dot(r, r) < support * support;
+        }
+    }
+    return see;
+}
+
 static void assert_clusters_list_all_beside_them(const mor_soil *soil)
 {
     const mor_sleep *sleep = &soil->sleep;
-    const double support = MOR_KERNEL_SUPPORT * soil->smoothing_length;
     for (int64_t c = 0; c < soil->tree.n_clusters; ++c) {
         for (int64_t d = 0; d < soil->tree.n_clusters; ++d) {
-            const double *boxes = sleep->boxes;
-            bool is_listed = c == d || mor_tree_box_gap2(boxes + 6 * c, boxes + 6 * d) > support * support;
+            bool is_listed = c == d || !clusters_see(soil, c, d);
             for (int64_t k = sleep->first[c]; k < sleep->first[c + 1] && !is_listed; ++k) {
                 is_listed = sleep->neighbors[k] == d;
             }

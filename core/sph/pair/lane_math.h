@@ -7,9 +7,6 @@
 #include "core/particle/lanes.h"
 
 #include <math.h>
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
 
 /** @file
  *  Choices between lanes, tensors in lanes, and rows of records read and written at once. Only files named *_isa.c

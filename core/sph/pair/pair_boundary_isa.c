@@ -50,7 +50,9 @@ INLINE int32_t find_near(const mor_pair_constants *c, const mor_pair_kernel_job 
     }
     for (int32_t entry = 0; entry < slot->count; ++entry) {
         const double *target = job->target + (int64_t)slot->list[entry] * job->target_stride;
+        const int32_t later = slot->list[entry + AHEAD < slot->count ? entry + AHEAD : entry];
         vec nearest = broadcast(INFINITY);
+        __builtin_prefetch(job->target + (int64_t)later * job->target_stride);
         for (int part = 0; part < PARTS; ++part) {
             vec r[3];
             separate(r, &f[part], target, dimension);

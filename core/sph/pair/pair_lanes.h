@@ -31,24 +31,6 @@ INLINE vec positive_part(vec a)
     return larger(a, broadcast(0.0));
 }
 
-/** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
-INLINE int any_less(vec a, real b)
-{
-#if defined(MOR_SINGLE) && defined(__AVX__)
-    return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, _mm256_set1_ps(b), _CMP_LT_OQ));
-#elif defined(__AVX512F__)
-    return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ);
-#elif defined(__AVX__)
-    return _mm256_movemask_pd(_mm256_cmp_pd((__m256d)a, _mm256_set1_pd(b), _CMP_LT_OQ));
-#else
-    int any = 0;
-    for (int lane = 0; lane < LANES; ++lane) {
-        any |= a[lane] < b;
-    }
-    return any;
-#endif
-}
-
 /** Returns the absolute values; any unit. */
 INLINE vec magnitude(vec a)
 {

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* GRAIN, CLUSTERS: clusters a thread takes at once, to decide and to compute. STACK: for 2^31 particles. */
-enum { GRAIN = 256, CLUSTERS = 32, STACK = 64 };
+/* Clusters a thread takes at once, to decide and to compute. */
+enum { GRAIN = 256, CLUSTERS = 32 };
 
 static int64_t smaller(int64_t a, int64_t b)
 {
@@ -114,15 +114,19 @@ static uint8_t find_restless(const mor_sleep_job *job, int64_t cluster)
 }
 
 /* Whether a particle is within reach of one of a cluster. */
-static bool particle_reaches(const mor_sleep_job *job, int64_t particle, int64_t cluster)
+static bool particle_reaches(const mor_sleep *sleep, const mor_sleep_job *job, int64_t particle, int64_t cluster)
 {
     const double *x = job->position + 3 * particle;
+    const double point[6] = {x[0], x[1], x[2], x[0], x[1], x[2]};
     const int64_t end = smaller((cluster + 1) * MOR_CLUSTER, job->n_particles);
     bool does = false;
+    if (mor_tree_box_gap2(sleep->boxes + 6 * cluster, point) > job->reach * job->reach) {
+        return false;
+    }
     for (int64_t i = cluster * MOR_CLUSTER; i < end && !does; ++i) {
         const double *y = job->position + 3 * i;
         const double r[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-        does = mor_vector_dot(r, r) <= job->reach * job->reach;
+        does = mor_vector_dot(r, r) < job->reach * job->reach; /* as lists are complete */
     }
     return does;
 }
@@ -133,56 +137,41 @@ static bool sees_restless(const mor_sleep *sleep, const mor_sleep_job *job, int6
     bool does = false;
     for (int64_t k = sleep->first[cluster]; k < sleep->first[cluster + 1] && !does; ++k) {
         const int64_t other = sleep->neighbors[k];
-        const unsigned restless = sleep->restless[other] != 0 && clusters_reach(sleep, job->reach, cluster, other)
-                                      ? sleep->restless[other]
-                                      : 0U;
-        for (int lane = 0; lane < MOR_CLUSTER && !does; ++lane) {
-            does = (restless >> lane & 1U) != 0 && particle_reaches(job, other * MOR_CLUSTER + lane, cluster);
+        unsigned restless = sleep->restless[other] != 0 && clusters_reach(sleep, job->reach, cluster, other)
+                                ? sleep->restless[other]
+                                : 0U;
+        for (; restless != 0 && !does; restless &= restless - 1) { /* the lowest bit each time */
+            does = particle_reaches(sleep, job, other * MOR_CLUSTER + __builtin_ctz(restless), cluster);
         }
     }
     return does;
 }
 
-/* A node of the tree: the clusters from first on. */
-typedef struct node {
-    int64_t number, first, n_clusters;
-} node;
-
-/* Counts the clusters whose boxes are within reach of that of a cluster; notes them, rising, where there is room. */
-static int64_t walk_tree(const mor_sleep *sleep, const mor_tree *tree, double reach, int64_t cluster, int32_t *found)
+/* Counts the other clusters whose particles a cluster lists; notes them, rising, where there is room. */
+static int64_t list_clusters(const mor_relation *relation, int64_t cluster, int32_t *found)
 {
-    const double *box = sleep->boxes + 6 * cluster;
-    node stack[STACK] = {{0, 0, tree->n_clusters}};
+    const int32_t *list = relation->lists[cluster];
     int64_t n = 0;
-    for (int depth = 1; depth > 0;) {
-        const node it = stack[--depth];
-        const int64_t left = mor_tree_left(it.n_clusters);
-        if (mor_tree_box_gap2(box, tree->boxes + 6 * it.number) > reach * reach) {
-            continue;
+    int64_t before = -1;
+    for (int32_t k = 0; k < relation->counts[cluster]; ++k) {
+        const int64_t other = list[k] / MOR_CLUSTER;
+        const bool is_new = other != before && other != cluster;
+        before = other;
+        if (is_new && found != NULL) {
+            found[n] = (int32_t)other;
         }
-        if (it.n_clusters > 1) {
-            stack[depth++] = (node){it.number + 2 * left, it.first + left, it.n_clusters - left};
-            stack[depth++] = (node){it.number + 1, it.first, left};
-        } else if (it.first != cluster) {
-            if (found != NULL) {
-                found[n] = (int32_t)it.first;
-            }
-            n += 1;
-        }
+        n += is_new;
     }
     return n;
 }
 
-mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_tree *tree,
-                                    const double *position, double reach)
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *relation)
 {
-    const mor_sleep_job job = {.n_particles = tree->n_points, .position = position};
-    const int64_t n = tree->n_clusters;
+    const int64_t n = relation->n_clusters;
     sleep->n_clusters = n;
     mor_sleep_forget_bodies(sleep);
     MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
-        find_box(sleep, &job, cluster);
-        sleep->first[cluster + 1] = walk_tree(sleep, tree, reach, cluster, NULL);
+        sleep->first[cluster + 1] = list_clusters(relation, cluster, NULL);
     }
     sleep->first[0] = 0;
     for (int64_t cluster = 0; cluster < n; ++cluster) {
@@ -196,7 +185,7 @@ mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, cons
         sleep->capacity = needed + needed / 4;
     }
     MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
-        walk_tree(sleep, tree, reach, cluster, sleep->neighbors + sleep->first[cluster]);
+        list_clusters(relation, cluster, sleep->neighbors + sleep->first[cluster]);
     }
     return MOR_OK;
 }
@@ -213,8 +202,8 @@ static bool sees_motion(const mor_sleep *sleep, const mor_sleep_job *job, int64_
     return does;
 }
 
-/* Whether all clusters within reach have a mark. The lists hold what was within more than that, so that distances of
- * now decide. */
+/* Whether all clusters with a particle within reach of one of a cluster have a mark. The lists hold more than those; of
+ * the rest only some that are far are left out, which decides how much is found anew, and no result. */
 static bool have_all(const mor_sleep *sleep, double reach, int64_t cluster, const int8_t *marks, int8_t least)
 {
     for (int64_t k = sleep->first[cluster]; k < sleep->first[cluster + 1]; ++k) {

@@ -74,14 +74,12 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
 /** Frees what it owns; accepts a zeroed one. */
 void mor_sleep_clear(mor_context *context, mor_sleep *sleep);
 
-/** Finds which clusters may see one another, after each build of the lists.
- *  @param tree     [in]  fitted to the particles, at most as many as there is room for
- *  @param position [in]  shape [tree->n_points, 3], unit m; to which the tree is fitted
- *  @param reach    [in]  of boxes that may come within the support of the kernel before the next build, unit m
+/** Finds which clusters list particles of one another, after each build of the lists.
+ *  @param relation [in]  built, of the particles with themselves, not through periodic faces; complete within the
+ *                        support of the kernel until the next build
  *  Gives: no cluster is held, and none is at bodies.
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: O(n log n); allocates only for more neighbors than ever before. */
-mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_tree *tree,
-                                    const double *position, double reach);
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: O(entries); allocates only for more neighbors than ever before. */
+mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *relation);
 
 /** Makes room for more bodies, before the first step.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */

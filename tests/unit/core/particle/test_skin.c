@@ -77,49 +77,6 @@ static bool some_are_missed(const moved_cloud *source, const moved_cloud *target
     return is_missed;
 }
 
-static void box_of(const double *records, int stride, int64_t first, int64_t last, double *box)
-{
-    for (int a = 0; a < 3; ++a) {
-        box[a] = INFINITY;
-        box[3 + a] = -INFINITY;
-        for (int64_t i = first; i < last; ++i) {
-            box[a] = fmin(box[a], records[i * stride + a]);
-            box[3 + a] = fmax(box[3 + a], records[i * stride + a]);
-        }
-    }
-}
-
-static double gap_of(const double *p, const double *q)
-{
-    double sum = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double gap = fmax(0.0, fmax(p[a] - q[3 + a], q[a] - p[3 + a]));
-        sum += gap * gap;
-    }
-    return sqrt(sum);
-}
-
-/* Likewise of boxes of clusters. */
-static bool some_boxes_are_missed(const moved_cloud *t)
-{
-    bool is_missed = false;
-    const int64_t n = t->c.n_points;
-    for (int64_t i = 0; i < n; i += MOR_CLUSTER) {
-        for (int64_t j = 0; j < n; j += MOR_CLUSTER) {
-            const int64_t ends[2] = {i + MOR_CLUSTER < n ? i + MOR_CLUSTER : n,
-                                     j + MOR_CLUSTER < n ? j + MOR_CLUSTER : n};
-            double now[2][6];
-            double built[2][6];
-            box_of(t->now, CLOUD_STRIDE, i, ends[0], now[0]);
-            box_of(t->now, CLOUD_STRIDE, j, ends[1], now[1]);
-            box_of(t->built, 3, i, ends[0], built[0]);
-            box_of(t->built, 3, j, ends[1], built[1]);
-            is_missed = is_missed || (gap_of(now[0], now[1]) <= SUPPORT && gap_of(built[0], built[1]) > REACH);
-        }
-    }
-    return is_missed;
-}
-
 static const int sizes[] = {1, 8, 9, 63, 200, 360};
 enum { SIZES = sizeof sizes / sizeof *sizes };
 
@@ -253,32 +210,6 @@ static void check_that_costs_more_than_new_lists_is_given_up(void **state)
     }
 }
 
-/* Boxes of clusters that come near one another, though their points do not. */
-static void boxes_are_compared_where_they_are_asked_for(void **state)
-{
-    (void)state;
-    mor_context context;
-    mor_context_init(&context);
-    int n_held[2] = {0, 0};
-    for (int option = 0; option < CLOUD_KINDS * MOTIONS * 6; ++option) {
-        const motion how = (motion)(option / CLOUD_KINDS % MOTIONS);
-        const double size = 0.01 * (double)(1 << option / CLOUD_KINDS / MOTIONS);
-        moved_cloud t;
-        open_moved_cloud(&context, &t, (cloud_kind)(option % CLOUD_KINDS), 200, how, size);
-        bool holds[2];
-        for (int k = 0; k < 2; ++k) {
-            t.side.asks_boxes = k == 1;
-            holds[k] = mor_skin_holds(&context, &t.side, &t.side, SUPPORT, REACH);
-            n_held[k] += holds[k];
-        }
-        assert_true(holds[0] || !holds[1]);
-        assert_int_equal(holds[1], holds[0] && !some_boxes_are_missed(&t));
-        cloud_close(&t.c);
-    }
-    assert_true(n_held[1] > 20 && n_held[1] < n_held[0]);
-    assert_int_equal(context.memory_bytes, 0);
-}
-
 static void lists_of_empty_sets_are_complete(void **state)
 {
     (void)state;
@@ -304,7 +235,6 @@ int main(void)
         cmocka_unit_test(lists_do_not_hold_once_a_box_without_points_may_be_in_reach),
         cmocka_unit_test(answer_does_not_depend_on_the_number_of_threads),
         cmocka_unit_test(check_that_costs_more_than_new_lists_is_given_up),
-        cmocka_unit_test(boxes_are_compared_where_they_are_asked_for),
         cmocka_unit_test(lists_of_empty_sets_are_complete),
     };
     return CLOUD_RUN(tests);

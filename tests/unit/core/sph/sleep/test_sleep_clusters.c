@@ -21,6 +21,7 @@ typedef struct row {
     mor_context context;
     mor_sleep sleep;
     mor_tree tree;
+    mor_relation relation;
     double position[3 * N + 3 * MOR_CLUSTER];
     double quiet[N];
 } row;
@@ -44,8 +45,13 @@ static int open_row(void **state)
     }
     assert_int_equal(mor_tree_init(&it.context, &it.tree, N), MOR_OK);
     mor_tree_fit(&it.tree, it.position, 3);
+    const mor_relation_points points = {&it.tree, it.position, 3};
+    assert_int_equal(
+        mor_relation_init(&it.context, &it.relation, MOR_CONFIGURATION_CURRENT, (N + MOR_CLUSTER - 1) / MOR_CLUSTER),
+        MOR_OK);
+    assert_int_equal(mor_relation_build(&it.context, &it.relation, &points, &points, 2.0 * REACH), MOR_OK);
     assert_int_equal(mor_sleep_init(&it.context, &it.sleep, N), MOR_OK);
-    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.tree, it.position, 2.0 * REACH), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.relation), MOR_OK);
     return 0;
 }
 
@@ -53,6 +59,7 @@ static int close_row(void **state)
 {
     (void)state;
     mor_sleep_clear(&it.context, &it.sleep);
+    mor_relation_clear(&it.context, &it.relation);
     mor_tree_clear(&it.context, &it.tree);
     assert_int_equal(it.context.memory_bytes, 0);
     return 0;
@@ -68,34 +75,6 @@ static void decide(const mor_sleep_box *moving, int n_moving)
                                .moving = moving,
                                .n_moving = n_moving};
     mor_sleep_decide(&it.context, &it.sleep, &job);
-}
-
-/* Box of a cluster, shape [2][3], m. */
-static void find_cluster_box(int64_t cluster, double box[2][3])
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        box[0][axis] = INFINITY;
-        box[1][axis] = -INFINITY;
-        for (int64_t i = cluster * MOR_CLUSTER; i < (cluster + 1) * MOR_CLUSTER && i < N; ++i) {
-            box[0][axis] = fmin(box[0][axis], it.position[3 * i + axis]);
-            box[1][axis] = fmax(box[1][axis], it.position[3 * i + axis]);
-        }
-    }
-}
-
-/* Distance of the boxes of two clusters, m. */
-static double find_gap(int64_t a, int64_t b)
-{
-    double own[2][3];
-    double other[2][3];
-    double sum = 0.0;
-    find_cluster_box(a, own);
-    find_cluster_box(b, other);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double gap = fmax(0.0, fmax(other[0][axis] - own[1][axis], own[0][axis] - other[1][axis]));
-        sum += gap * gap;
-    }
-    return sqrt(sum);
 }
 
 /* Least distance of a particle from those of a cluster, m. */
@@ -170,12 +149,12 @@ static void cluster_is_held_from_the_second_step_of_sleep_on(void **state)
     for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
         const bool is_near = find_distance(20 * MOR_CLUSTER, cluster) <= REACH;
         assert_true(it.sleep.states[cluster] == MOR_SLEEP_AWAKE || !is_near);
-        for (int64_t other = 0; other < CLUSTERS; ++other) { /* none that sees one that is awake */
-            assert_true(it.sleep.states[cluster] != MOR_SLEEP_HELD || it.sleep.states[other] != MOR_SLEEP_AWAKE ||
-                        find_gap(cluster, other) > REACH);
+        for (int64_t i = 0; i < N; ++i) { /* none that sees one that is awake */
+            assert_true(it.sleep.states[cluster] != MOR_SLEEP_HELD ||
+                        it.sleep.states[i / MOR_CLUSTER] != MOR_SLEEP_AWAKE || find_distance(i, cluster) > REACH);
         }
     }
-    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.tree, it.position, 2.0 * REACH), MOR_OK);
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.relation), MOR_OK);
     decide(NULL, 0);
     for (int64_t cluster = 0; cluster < CLUSTERS; ++cluster) {
         assert_int_not_equal(it.sleep.states[cluster], MOR_SLEEP_HELD);
