@@ -115,6 +115,26 @@ static void a_cut_in_stages_is_the_cut_in_one_go(void **state)
     assert_near(finished_run_read_value(folder, "staged", "sy", -1), stress, -0.02 * stress);
 }
 
+/* Soil that has become wet: a quarter heavier at the same volume, at once. On a smooth floor between smooth walls it is
+ * pressed by its weight alone. */
+static void soil_of_another_density_is_taken_over_with_its_volume(void **state)
+{
+    run_folder *folder = *state;
+    char text[6000];
+    run_cut(folder, CASE_OF_CUT("", "4"), "before");
+    snprintf(text, sizeof text, "%s", CASE_OF_CUT(DAMPED "start_from = 'before';", "4"));
+    char *density = strstr(text, "density = 2000");
+    memcpy(density, "density = 2500", strlen("density = 2500"));
+    run_cut(folder, text, "wet");
+    const double mass = finished_run_read_value(folder, "before", "mass", -1);
+    assert_near(finished_run_read_value(folder, "wet", "mass", 0), 1.25 * mass, 1e-12 * mass);
+    /* The stress is taken over, and 1.5 m below the surface grows with the weight: rho g times 1.5 m, 2 %. */
+    assert_near(finished_run_read_value(folder, "wet", "sy", 0), finished_run_read_value(folder, "before", "sy", -1),
+                1e-9);
+    const double weight = 2500.0 * 9.81 * 1.5;
+    assert_near(finished_run_read_value(folder, "wet", "sy", -1), -weight, 0.02 * weight);
+}
+
 /* A filling on what is left, in a third stage that is itself resumed. */
 static void a_stage_fills_and_is_resumed_with_the_same_bits(void **state)
 {
@@ -372,6 +392,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_run_is_resumed_before_between_and_after_removals_with_the_same_bits,
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_cut_in_stages_is_the_cut_in_one_go, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(soil_of_another_density_is_taken_over_with_its_volume, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stage_fills_and_is_resumed_with_the_same_bits, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_taken_over_stands_until_it_is_released, run_folder_setup,

@@ -73,11 +73,21 @@ static void mark_fields(mor_case_soil *soil, const mor_case_node *before)
     }
 }
 
+/* Finds the density that a soil had in the run, kg/m3; leaves it where none is written. */
+static mor_status read_density(const mor_case_reader *reader, const mor_case_node *before, double *density)
+{
+    const mor_case_node *node = mor_case_node_find(mor_case_node_find(before, "material"), "density");
+    const mor_case_key *keys = mor_case_material_group.keys;
+    const mor_schema *schema = &keys[mor_case_key_find(keys, "density")].schema;
+    return node == NULL ? MOR_OK : mor_case_reader_numbers(reader, node, schema, false, density);
+}
+
 /* Finds the region of the run that has the name of a soil, and compares their laws. */
 static mor_status find_region(const mor_case_reader *reader, const mor_case_node *node, mor_case *the_case, int soil,
                               const mor_case_node *soils, int *region)
 {
     mor_case_soil *it = &the_case->soils[soil];
+    double density = it->density;
     int index = 0;
     *region = -1;
     for (const mor_case_node *other = soils == NULL ? NULL : soils->first_child; other != NULL;
@@ -95,6 +105,8 @@ static mor_status find_region(const mor_case_reader *reader, const mor_case_node
                                       it->model, it->name, it->place.line, model, the_case->stage.run);
         }
         mark_fields(it, other);
+        MOR_TRY(reader->context, read_density(reader, other, &density));
+        the_case->stage.heavier[soil] = it->density / density;
         *region = index;
     }
     return MOR_OK;
@@ -226,6 +238,7 @@ mor_status mor_case_reader_stage(const mor_case_reader *reader, const mor_case_n
     earlier_run run = {NULL, NULL};
     for (int k = 0; k < MOR_CASE_SOILS_MAX; ++k) {
         stage->region_of[k] = -1;
+        stage->heavier[k] = 1.0;
     }
     MOR_TRY(reader->context, read_excavations(reader, root, stage));
     if (stage->run[0] == '\0') {

@@ -32,6 +32,26 @@ static bool is_brought(const mor_case *c, const char *key)
     return is;
 }
 
+/* Soil of another density than in the run before is heavier or lighter at the same volume. */
+static double find_factor(const mor_case *c, int soil, int field)
+{
+    const bool grows = field == MOR_FIELD_MASS || field == MOR_FIELD_DENSITY || field == MOR_FIELD_DENSITY_RATE;
+    return grows ? c->stage.heavier[soil] : 1.0;
+}
+
+static void tell_density(mor_context *context, const mor_taken_soil *taken)
+{
+    const mor_case *c = taken->the_case;
+    for (int k = 0; k < c->n_soils; ++k) {
+        if (mor_taken_soil_has(taken, k) && c->stage.heavier[k] != 1.0) {
+            mor_context_log(context, MOR_LOG_INFO,
+                            "soil '%s': its density is %.6g times that in '%s': mass and density of its particles are "
+                            "multiplied by that, their volumes and stresses are kept",
+                            c->soils[k].name, c->stage.heavier[k], c->stage.run);
+        }
+    }
+}
+
 static mor_status apply_field(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation, int field,
                               double *values)
 {
@@ -55,9 +75,12 @@ static mor_status apply_field(mor_context *context, const mor_taken_soil *taken,
         const int64_t n = mor_taken_soil_has(taken, k) ? taken->count[k] : 0;
         const bool is_state = mor_params_find(c->soils[k].law->state, info->name) >= 0;
         const bool is_kept = !is_parameter || is_state || mor_simulation_brings(c, k, info->name);
+        const double factor = find_factor(c, k, field);
         for (int64_t i = 0; i < n && is_kept; ++i) {
-            memcpy(soil->set.data[field] + width * (to + i), values + width * taken->sources[taken->first[k] + i],
-                   (size_t)width * sizeof *values);
+            for (int a = 0; a < width; ++a) {
+                soil->set.data[field][width * (to + i) + a] =
+                    factor * values[width * taken->sources[taken->first[k] + i] + a];
+            }
         }
         to += simulation->region_particles[k];
     }
@@ -208,6 +231,7 @@ mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *take
     MOR_FREE(context, &values);
     status = status == MOR_OK ? mor_simulation_check_fields(context, simulation) : status;
     tell_fields(context, taken);
+    tell_density(context, taken);
     stop_held_soil(context, taken, simulation);
     for (int64_t i = 0; i < soil->set.n_particles && status == MOR_OK; ++i) {
         const double speed = mor_vector_length(soil->set.data[MOR_FIELD_VELOCITY] + 3 * i);
