@@ -29,7 +29,8 @@ DOORS = {
     r"omp\.h": ("core/base/parallel.h",),
     r"cmocka\.h": ("tests/",),
     r"setjmp\.h": ("tests/", "cases/driver/main.c", "cases/driver/picture/draw/png_file.c"),
-    r"(x86|imm)intrin\.h|arm_neon\.h": ("core/base/", "core/particle/lanes.h", "core/sph/", "core/material/", "materials/"),
+    r"(x86|imm)intrin\.h|arm_neon\.h": ("core/base/", "core/particle/lanes.h", "core/sph/", "core/material/",
+                                       "materials/"),
 }
 
 LIBC = re.compile(
