@@ -253,8 +253,8 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
-        /* Rocks have moved since the boundary forces were summed; their velocity is now that after this step,
-         * docs/theory/coupling.md, C6b. */
+        /* Rocks have moved on since the boundary forces were summed, but their points in the records have not; the
+         * velocity there is now that after this step, docs/theory/coupling.md, C6b. */
         mor_soil_contact_update_velocity(context, contact, soil->table, &soil->constants, records);
         mor_soil_contact_sum_gradient(context, contact, records, soil->set.n_particles, gradient, rate);
     }

@@ -114,6 +114,32 @@ static void sleep_depends_neither_on_threads_nor_on_when_lists_were_built(void *
     }
 }
 
+/* In mixed precision sums over soil that sleeps beside a body, which are found in each step, are those of what is in
+ * reach, whatever else is on its lists. */
+static void sleep_beside_a_body_in_mixed_precision_does_not_depend_on_lists(void **state)
+{
+    static const char *const skins[] = {"numerics.skin_ratio=0.45", "numerics.skin_ratio=0.2",
+                                        "numerics.skin_ratio=1.2"};
+    uint64_t checksums[3];
+    double height[3];
+    (void)state;
+    for (int k = 0; k < 3; ++k) {
+        const char *const ball[] = {
+            "numerics.precision=mixed",
+            "bodies=({name='ball';position=('3 m','0.44 m');shape={type='sphere';center=(0,0);radius='0.15 m';};"
+            "friction='rough';material={model='rigid';density=1600;};})",
+            "probes=({name='height';type='body_position';body='ball';direction=(0,1);})", skins[k], NULL};
+        scene *it = open_bed(short_run, ball, k + 1);
+        scene_step(it, 600);
+        assert_true(find_share(it) > 0.05);
+        checksums[k] = mor_set_checksum(&it->simulation.soil.set);
+        height[k] = scene_probe(it, "height");
+        scene_free(it);
+    }
+    assert_true(checksums[1] == checksums[0] && checksums[2] == checksums[0]);
+    assert_true(height[1] == height[0] && height[2] == height[0]);
+}
+
 /* Whether any particles of two clusters were within the support in this step. */
 static bool clusters_see(const mor_soil *soil, int64_t c, int64_t d)
 {
@@ -391,6 +417,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(flow_does_not_notice_that_soil_beside_it_sleeps),
         cmocka_unit_test(sleep_depends_neither_on_threads_nor_on_when_lists_were_built),
+        cmocka_unit_test(sleep_beside_a_body_in_mixed_precision_does_not_depend_on_lists),
         cmocka_unit_test(lists_of_soil_that_sleeps_are_complete),
         cmocka_unit_test(sleep_of_clusters_that_overlap_does_not_depend_on_lists_either),
         cmocka_unit_test(soil_wakes_before_a_tool_however_slow_it_is),

@@ -124,6 +124,7 @@ static void soil_of_another_density_is_taken_over_with_its_volume(void **state)
     run_cut(folder, CASE_OF_CUT("", "4"), "before");
     snprintf(text, sizeof text, "%s", CASE_OF_CUT(DAMPED "start_from = 'before';", "4"));
     char *density = strstr(text, "density = 2000");
+    assert_non_null(density);
     memcpy(density, "density = 2500", strlen("density = 2500"));
     run_cut(folder, text, "wet");
     const double mass = finished_run_read_value(folder, "before", "mass", -1);
@@ -133,6 +134,38 @@ static void soil_of_another_density_is_taken_over_with_its_volume(void **state)
                 1e-9);
     const double weight = 2500.0 * 9.81 * 1.5;
     assert_near(finished_run_read_value(folder, "wet", "sy", -1), -weight, 0.02 * weight);
+}
+
+/* Sand of a law that keeps the density below which it bears no stress becomes a tenth lighter: it goes on bearing its
+ * weight, to 4 % beside other soil that stays as heavy as it was and leans on it. */
+static void densities_in_the_state_of_a_law_follow_the_soil(void **state)
+{
+#define CASE_OF_SAND(start, density)                                                                                   \
+    start "title = 'sand'; dimension = 2; spacing = '0.1 m'; gravity = (0, -9.81); end = '0.25 s';"                    \
+          "domain = { min = (-0.5, -0.5); max = (2.5, 3); };"                                                          \
+          "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0); max = (1, 2); };"                           \
+          "  material = { model = 'hencky_drucker_prager'; density = " density "; youngs_modulus = '20 MPa';"          \
+          "    poissons_ratio = 0.3; friction_angle = '30 deg'; }; initial_stress = { type = 'k0'; }; },"              \
+          "  { name = 'other'; shape = { type = 'box'; min = (1, 0); max = (2, 2); };"                                 \
+          "  material = { model = 'hencky_drucker_prager'; density = 2000; youngs_modulus = '20 MPa';"                 \
+          "    poissons_ratio = 0.3; friction_angle = '30 deg'; }; initial_stress = { type = 'k0'; }; } );"            \
+          "walls = ( { name = 'floor'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = "  \
+          "(0, 1); }; },"                                                                                              \
+          "  { name = 'left'; friction = 'smooth'; shape = { type = 'half_space'; point = (0, 0); normal = (1, 0); "   \
+          "}; },"                                                                                                      \
+          "  { name = 'right'; friction = 'smooth'; shape = { type = 'half_space'; point = (2, 0); normal = (-1, 0); " \
+          "}; } );"                                                                                                    \
+          "probes = ( { name = 'mass'; type = 'mass'; },"                                                              \
+          "  { name = 'sy'; type = 'soil_stress'; origin = (0.35, 0.5); direction = (0, 1); } );"                      \
+          "numerics = { local_damping = 0.7; }; output = { snapshots = 6; pictures = false; };"
+    run_folder *folder = *state;
+    run_cut(folder, CASE_OF_SAND("", "2000"), "before");
+    run_cut(folder, CASE_OF_SAND("start_from = 'before';", "1800"), "drained");
+    assert_near(finished_run_read_value(folder, "drained", "mass", 0), 2.0 * 1800.0 + 2.0 * 2000.0, 1e-6);
+    const double before = finished_run_read_value(folder, "before", "sy", -1);
+    assert_near(finished_run_read_value(folder, "drained", "sy", 0), before, 1e-9);
+    assert_near(finished_run_read_value(folder, "drained", "sy", -1), 0.9 * before, -0.04 * before);
+#undef CASE_OF_SAND
 }
 
 /* A filling on what is left, in a third stage that is itself resumed. */
@@ -393,6 +426,8 @@ int main(void)
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_cut_in_stages_is_the_cut_in_one_go, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_of_another_density_is_taken_over_with_its_volume, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(densities_in_the_state_of_a_law_follow_the_soil, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_stage_fills_and_is_resumed_with_the_same_bits, run_folder_setup,
                                         run_folder_teardown),

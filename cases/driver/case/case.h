@@ -468,7 +468,7 @@ typedef struct mor_case_stage {
     mor_case_place place;
     uint64_t hash;                     /* of the content of its checkpoint */
     int region_of[MOR_CASE_SOILS_MAX]; /* of each soil of this case: the region of the run with its name; -1: none */
-    double heavier[MOR_CASE_SOILS_MAX]; /* density of each soil over that of the soil that it takes over, 1 */
+    double density_ratio[MOR_CASE_SOILS_MAX]; /* density of each soil over that of the soil that it takes over, 1 */
     mor_shape *excavations[MOR_CASE_EXCAVATIONS_MAX];             /* whose soil is not taken over; owned by the case */
     mor_case_shape excavation_outlines[MOR_CASE_EXCAVATIONS_MAX]; /* what they were built from; owned by the case */
     int n_excavations;

@@ -311,7 +311,8 @@ mor_status mor_soil_contact_check_hold(mor_context *context, const mor_soil_cont
                                        double smoothing_length, int64_t n_particles, double time);
 
 /** Updates the velocity of the boundary as the particles see it; to be called when its owner has changed it.
- *  @param contact   [in,out]  lists must be current
+ *  @param contact   [in,out]  kernel sums must be those of the same places of particles and points: it reads the short
+ *                             lists that they left
  *  @param table     [in]      pair routines
  *  @param records   [in]      shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
 void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,

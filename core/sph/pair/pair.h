@@ -223,7 +223,8 @@ typedef struct mor_pair_tangent_job {
 typedef void (*mor_pair_tangent_loop)(const mor_pair_constants *constants, const mor_pair_tangent_job *job,
                                       int64_t first, int64_t last);
 
-/** Mean of a vector of the points of a boundary that each particle sees, by kernel values; zero where it sees none. */
+/** Mean of a vector of the points of a boundary that each particle sees, by kernel values; zero where it sees none. As
+ *  faces and shares below it reads the short lists of a kernel job of the same slots. */
 typedef struct mor_pair_mean_job {
     const double *source;       /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const double *target;       /* shape [n_target, MOR_BOUNDARY_RECORD]; units of MOR_BOUNDARY_... */

@@ -7,7 +7,8 @@
 /* Stress components that a pass over a chunk sums, by three of the separation: as many sums as stay in registers. */
 enum { IN_PASS = 3 };
 
-/* Adds V_j k (stress_i - stress_j)_s (r_i - r_j)_c of the pairs of a chunk, for three of the components s. */
+/* Adds k (stress_i - stress_j)_s (r_i - r_j)_c, k with the volume in it, of the pairs of a chunk, for three of the
+ * components s. */
 INLINE void add_differences(vec *sum, const geometries *chunk, const real *records, const int32_t *near, int size,
                             const frame *f, const vec *stress, const int *components, const int dimension)
 {
@@ -35,23 +36,58 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const real *recor
     }
 }
 
-/* The sums over a chunk of the neighbors. */
-INLINE void sum_chunk(vec *sum, const real *records, const int32_t *near, int size, const frame *f, const vec *stress,
-                      const int dimension)
+#if defined(MOR_SINGLE)
+/* Squared distance from which on a target is out of reach, over that of the support: rounding never leaves one out. */
+#define OUT_OF_REACH 1.000001F
+
+/* Finds the next targets of a list that any lane reaches, at most CHUNK, and keeps their separations; moves entry on.
+ * Lists of soil that sleeps hold others, too, and how many depends on when they were built: what is added up in single
+ * precision must not. */
+INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, const int32_t *near, int32_t count,
+                      int32_t *entry, const frame *f, const int dimension)
+{
+    const real support2 = OUT_OF_REACH / (f->half_inverse_h * f->half_inverse_h);
+    int n = 0;
+    for (; *entry < count && n < CHUNK; ++*entry) {
+        const int32_t later = *entry + AHEAD < count ? near[*entry + AHEAD] : near[*entry];
+        vec r[3];
+        __builtin_prefetch(records + (int64_t)later * MOR_RECORD_SIZE);
+        separate(r, f, records + (int64_t)near[*entry] * MOR_RECORD_SIZE, dimension);
+        const vec distance2 = squared(r, f, dimension);
+        keep_separation(chunk, n, r, distance2, dimension);
+        reached[n] = near[*entry];
+        n += any_less(distance2, support2) != 0;
+    }
+    return n;
+}
+#else
+/* The next targets of a list, at most CHUNK: zeros change no sum. */
+INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, const int32_t *near, int32_t count,
+                      int32_t *entry, const frame *f, const int dimension)
+{
+    (void)chunk, (void)f, (void)dimension;
+    int n = 0;
+    for (; *entry < count && n < CHUNK; ++*entry) {
+        const int32_t later = *entry + AHEAD < count ? near[*entry + AHEAD] : near[*entry];
+        ask_for(records + (int64_t)later * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof *records, 0);
+        reached[n++] = near[*entry];
+    }
+    return n;
+}
+#endif
+
+/* The sums over a chunk of the neighbors, whose separations are kept in single precision. */
+INLINE void sum_chunk(vec *sum, geometries *chunk, const real *records, const int32_t *near, int size, const frame *f,
+                      const vec *stress, const int dimension)
 {
     static const int plane[IN_PASS] = {MOR_XX, MOR_YY, MOR_XY}; /* no others act along a plane */
     static const int rest[IN_PASS] = {MOR_ZZ, MOR_YZ, MOR_ZX};
-    geometries chunk;
     for (int q = 0; q < size; ++q) {
-        const real *target = records + (int64_t)near[q] * MOR_RECORD_SIZE;
-        vec r[3];
-        separate(r, f, target, dimension);
-        keep_separation(&chunk, q, r, squared(r, f, dimension), dimension);
-        find_geometry(&chunk, q, target, f, dimension, 0);
+        find_geometry(chunk, q, records + (int64_t)near[q] * MOR_RECORD_SIZE, f, dimension, 0);
     }
-    add_differences(sum, &chunk, records, near, size, f, stress, plane, dimension);
+    add_differences(sum, chunk, records, near, size, f, stress, plane, dimension);
     if (dimension == 3) {
-        add_differences(sum, &chunk, records, near, size, f, stress, rest, dimension);
+        add_differences(sum, chunk, records, near, size, f, stress, rest, dimension);
     }
 }
 
@@ -86,13 +122,11 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
         stress[a] = load(own, MOR_RECORD_SIZE, MOR_RECORD_STRESS + a);
     }
     memset(sum, 0, sizeof sum);
-    for (int32_t entry = 0; entry < count; entry += CHUNK) {
-        const int size = count - entry < CHUNK ? count - entry : CHUNK;
-        for (int q = 0; q < size; ++q) {
-            const int32_t later = entry + q + AHEAD < count ? entry + q + AHEAD : entry + q;
-            ask_for(records + (int64_t)near[later] * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof *records, 0);
-        }
-        sum_chunk(sum, records, near + entry, size, &f, stress, dimension);
+    geometries chunk;
+    int32_t reached[CHUNK];
+    for (int32_t entry = 0; entry < count;) {
+        const int size = find_chunk(&chunk, reached, records, near, count, &entry, &f, dimension);
+        sum_chunk(sum, &chunk, records, reached, size, &f, stress, dimension);
         if (sizeof(real) == sizeof(float)) { /* singles add up within a chunk, doubles beyond */
             add_sums(sums, part, sum, unit);
             memset(sum, 0, sizeof sum);
@@ -101,14 +135,15 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
     add_sums(sums, part, sum, unit);
 }
 
-void LOOP_NAME(differences)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t cluster, double *sums)
+void LOOP_NAME(differences)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t cluster,
+                            double (*sums)[MOR_CLUSTER])
 {
-    memset(sums, 0, MOR_PAIR_DIFFERENCES * MOR_CLUSTER * sizeof *sums);
+    memset(sums, 0, MOR_PAIR_DIFFERENCES * sizeof *sums);
     for (int part = 0; part < PARTS; ++part) {
         if (c->dimension == 2) {
-            sum_part(c, job, cluster, part, (double(*)[MOR_CLUSTER])sums, 2);
+            sum_part(c, job, cluster, part, sums, 2);
         } else {
-            sum_part(c, job, cluster, part, (double(*)[MOR_CLUSTER])sums, 3);
+            sum_part(c, job, cluster, part, sums, 3);
         }
     }
 }

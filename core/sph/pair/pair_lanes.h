@@ -365,12 +365,12 @@ void MOR_ISA_NAME(mor_pair_mixed_gradient_3d)(const mor_pair_constants *c, const
  *  @param sums    [out]  shape [6, 3, 8]; by components of the stress, of the separation and particles; unit Pa m4
  *                        (Pa m3 in plane strain) */
 void MOR_ISA_NAME(mor_pair_differences)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t cluster,
-                                        double *sums);
+                                        double (*sums)[MOR_CLUSTER]);
 /** As mor_pair_differences, pairs in single precision.
  *  @param cluster [in]   of the particles
  *  @param sums    [out]  shape [6, 3, 8], unit Pa m4 (Pa m3 in plane strain) */
 void MOR_ISA_NAME(mor_pair_mixed_differences)(const mor_pair_constants *c, const mor_pair_tangent_job *job,
-                                              int64_t cluster, double *sums);
+                                              int64_t cluster, double (*sums)[MOR_CLUSTER]);
 /** Finds kernel sums over a range of a job. See mor_pair_table. */
 void MOR_ISA_NAME(mor_pair_kernel)(const mor_pair_constants *c, const mor_pair_kernel_job *job, int64_t first,
                                    int64_t last);

@@ -11,7 +11,8 @@
 
 /** @file
  *  Copies in single precision of what the pair loops read, for those in mixed precision. The state stays in double: the
- *  copies are made anew before each loop. Theory: docs/theory/soil.md, mixed precision. */
+ *  copies are made anew before the sums of momentum, which those of stress differences at boundaries follow, and of the
+ *  velocity gradient. Theory: docs/theory/soil.md, mixed precision. */
 
 /** Room for the copies. Owner: the soil solver. Zeroed: none. */
 typedef struct mor_pair_singles {

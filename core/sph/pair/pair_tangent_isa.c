@@ -52,7 +52,7 @@ INLINE bool reaches_any(const mor_pair_tangent_job *job, int64_t first, int64_t 
 INLINE void tangent_cluster(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t first, int64_t last)
 {
     const int64_t cluster = job->slots[first].cluster;
-    double sums[MOR_PAIR_DIFFERENCES * MOR_CLUSTER];
+    double sums[MOR_PAIR_DIFFERENCES][MOR_CLUSTER];
     if (!reaches_any(job, first, last)) {
         memset(job->out + first * MOR_CLUSTER * 6, 0, (size_t)((last - first) * MOR_CLUSTER * 6) * sizeof *job->out);
         return;
@@ -65,7 +65,7 @@ INLINE void tangent_cluster(const mor_pair_constants *c, const mor_pair_tangent_
     for (int64_t lane = 0; lane < MOR_CLUSTER; lane += LANES) {
         vec sum[MOR_PAIR_DIFFERENCES];
         for (int k = 0; k < MOR_PAIR_DIFFERENCES; ++k) {
-            sum[k] = load(sums + k * MOR_CLUSTER + lane, 1, 0);
+            sum[k] = load(sums[k] + lane, 1, 0);
         }
         for (int64_t place = first; place < last; ++place) {
             const int64_t slot = place * MOR_CLUSTER + lane;

@@ -147,7 +147,8 @@ static bool sees_restless(const mor_sleep *sleep, const mor_sleep_job *job, int6
     return does;
 }
 
-/* Counts the other clusters whose particles a cluster lists; notes them, rising, where there is room. */
+/* Counts the other clusters whose particles a cluster lists; notes them, rising, where there is room. Images, which
+ * have no cluster, are on no list: soil does not sleep in periodic domains. */
 static int64_t list_clusters(const mor_relation *relation, int64_t cluster, int32_t *found)
 {
     const int32_t *list = relation->lists[cluster];
@@ -202,8 +203,9 @@ static bool sees_motion(const mor_sleep *sleep, const mor_sleep_job *job, int64_
     return does;
 }
 
-/* Whether all clusters with a particle within reach of one of a cluster have a mark. The lists hold more than those; of
- * the rest only some that are far are left out, which decides how much is found anew, and no result. */
+/* Whether all clusters with a particle within reach of one of a cluster have a mark. Lists hold some that are just out
+ * of reach, too, and which ones depends on when they were built: that decides how many clusters are held, and what is
+ * held is what would be found anew. */
 static bool have_all(const mor_sleep *sleep, double reach, int64_t cluster, const int8_t *marks, int8_t least)
 {
     for (int64_t k = sleep->first[cluster]; k < sleep->first[cluster + 1]; ++k) {

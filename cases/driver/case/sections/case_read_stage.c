@@ -106,7 +106,7 @@ static mor_status find_region(const mor_case_reader *reader, const mor_case_node
         }
         mark_fields(it, other);
         MOR_TRY(reader->context, read_density(reader, other, &density));
-        the_case->stage.heavier[soil] = it->density / density;
+        the_case->stage.density_ratio[soil] = it->density / density;
         *region = index;
     }
     return MOR_OK;
@@ -238,7 +238,7 @@ mor_status mor_case_reader_stage(const mor_case_reader *reader, const mor_case_n
     earlier_run run = {NULL, NULL};
     for (int k = 0; k < MOR_CASE_SOILS_MAX; ++k) {
         stage->region_of[k] = -1;
-        stage->heavier[k] = 1.0;
+        stage->density_ratio[k] = 1.0;
     }
     MOR_TRY(reader->context, read_excavations(reader, root, stage));
     if (stage->run[0] == '\0') {

@@ -32,22 +32,27 @@ static bool is_brought(const mor_case *c, const char *key)
     return is;
 }
 
-/* Soil of another density than in the run before is heavier or lighter at the same volume. */
-static double find_factor(const mor_case *c, int soil, int field)
+/* Soil of another density than in the run before is heavier or lighter at the same volume: its mass, and all that is a
+ * density, also of the state of a law. */
+static double find_density_factor(const mor_case *c, int soil, const mor_field_info *info)
 {
-    const bool grows = field == MOR_FIELD_MASS || field == MOR_FIELD_DENSITY || field == MOR_FIELD_DENSITY_RATE;
-    return grows ? c->stage.heavier[soil] : 1.0;
+    static const char *const units[] = {"kg", "kg/m3", "kg/m3/s"};
+    bool grows = false;
+    for (size_t k = 0; k < sizeof units / sizeof *units; ++k) {
+        grows = grows || strcmp(info->unit, units[k]) == 0;
+    }
+    return grows ? c->stage.density_ratio[soil] : 1.0;
 }
 
 static void tell_density(mor_context *context, const mor_taken_soil *taken)
 {
     const mor_case *c = taken->the_case;
     for (int k = 0; k < c->n_soils; ++k) {
-        if (mor_taken_soil_has(taken, k) && c->stage.heavier[k] != 1.0) {
-            mor_context_log(context, MOR_LOG_INFO,
-                            "soil '%s': its density is %.6g times that in '%s': mass and density of its particles are "
-                            "multiplied by that, their volumes and stresses are kept",
-                            c->soils[k].name, c->stage.heavier[k], c->stage.run);
+        if (mor_taken_soil_has(taken, k) && c->stage.density_ratio[k] != 1.0) {
+            mor_context_log(context, MOR_LOG_PROGRESS,
+                            "soil '%s': its density is %.6g times that in '%s': its particles have become as much "
+                            "heavier at the same volume and stress",
+                            c->soils[k].name, c->stage.density_ratio[k], c->stage.run);
         }
     }
 }
@@ -75,7 +80,7 @@ static mor_status apply_field(mor_context *context, const mor_taken_soil *taken,
         const int64_t n = mor_taken_soil_has(taken, k) ? taken->count[k] : 0;
         const bool is_state = mor_params_find(c->soils[k].law->state, info->name) >= 0;
         const bool is_kept = !is_parameter || is_state || mor_simulation_brings(c, k, info->name);
-        const double factor = find_factor(c, k, field);
+        const double factor = is_parameter ? 1.0 : find_density_factor(c, k, info);
         for (int64_t i = 0; i < n && is_kept; ++i) {
             for (int a = 0; a < width; ++a) {
                 soil->set.data[field][width * (to + i) + a] =
