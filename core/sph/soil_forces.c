@@ -187,7 +187,7 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
     arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);
-    mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner);
+    mor_view_write_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->inner); /* and the copies in single precision */
     set_diffusion(context, soil, step, arrays.stress_diffusion);
     MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->momentum, soil->table->mixed_momentum));
     mor_hold_stop(&soil->hold, arrays.acceleration, 3);
@@ -201,7 +201,8 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
     mor_soil *soil = owner;
     (void)step;
     const mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
-    const mor_pair_singles *singles = soil->settings.scheme.precision == 1 ? &soil->singles : NULL;
+    const mor_pair_singles *copies = mor_view_read_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->singles);
+    const mor_pair_singles *singles = soil->settings.scheme.precision == 1 ? copies : NULL;
     double *acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);

@@ -23,7 +23,7 @@
     X(STATE, "material state")                                                                                         \
     X(RECORDS, "records")               /* packed neighbor records */                                                  \
     X(LISTS, "lists")                   /* neighbor lists */                                                           \
-    X(SHORT_LISTS, "short lists")       /* what of the lists is in reach in this step */                               \
+    X(SHORT_LISTS, "short lists")       /* what of the lists is in reach in this step; copies for single precision */  \
     X(BOUNDARIES, "boundaries")         /* points of walls and rocks */                                                \
     X(WALL_SUMS, "wall sums")           /* kernel sums over walls and rocks */                                         \
     X(WALL_FORCES, "wall forces")       /* forces between soil and walls or rocks, and where they stick */             \
