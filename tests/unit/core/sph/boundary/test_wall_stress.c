@@ -234,6 +234,22 @@ static double largest_terms(const assembly *a, int i)
     return 6.0 * stress * weight;
 }
 
+/* Compares with the divergence as it was, shape [slots * 8, 6], Pa/m; returns the largest difference, Pa/m.
+ * rounding: allowed over the largest terms */
+static double compare_divergence(const floor_case *f, const double *before, double rounding)
+{
+    double error = 0.0;
+    for (int64_t lane = 0; lane < f->wall.n_slots * MOR_CLUSTER; ++lane) {
+        const int i = f->wall.slots[lane / MOR_CLUSTER].cluster * MOR_CLUSTER + (int)(lane % MOR_CLUSTER);
+        for (int k = 0; i < f->soil.n && k < 6; ++k) {
+            const double off = fabs(f->wall.divergence[6 * lane + k] - before[6 * lane + k]);
+            assert_true(off <= rounding * largest_terms(&f->soil, i));
+            error = fmax(error, off);
+        }
+    }
+    return error;
+}
+
 static void divergence_in_mixed_precision_differs_by_roundings(void **state)
 {
     (void)state;
@@ -248,31 +264,17 @@ static void divergence_in_mixed_precision_differs_by_roundings(void **state)
         mor_pair_arrays arrays = {.n_particles = f.soil.n, .records = f.soil.records};
         mor_pair_singles singles = {0};
         double in_double[6 * ASSEMBLY_MAX];
-        double error = 0.0;
         memcpy(in_double, f.wall.divergence, 6 * (size_t)f.wall.n_slots * MOR_CLUSTER * sizeof *in_double);
         assert_int_equal(mor_pair_singles_pack(context, &f.soil.constants, &none, &singles, &arrays), MOR_OK);
         mor_soil_contact_sum_divergence(context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
                                         &f.soil.relation, &singles);
-        for (int64_t slot = 0; slot < f.wall.n_slots * MOR_CLUSTER; ++slot) {
-            const int i = f.wall.slots[slot / MOR_CLUSTER].cluster * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
-            for (int k = 0; i < f.soil.n && k < 6; ++k) {
-                const double off = fabs(f.wall.divergence[6 * slot + k] - in_double[6 * slot + k]);
-                assert_true(off <= SINGLE_ROUNDING * largest_terms(&f.soil, i));
-                error = fmax(error, off);
-            }
-        }
-        assert_true(error > 0.0); /* they were summed in single precision */
+        /* They were summed in single precision. */
+        assert_true(compare_divergence(&f, in_double, SINGLE_ROUNDING) > 0.0);
         /* A cluster that is too wide for places modulo 2^32 is summed in double. */
         memset(singles.is_wide, 1, (size_t)f.soil.tree.n_clusters);
         mor_soil_contact_sum_divergence(context, &f.wall, tables[option / 2], &f.soil.constants, f.soil.records,
                                         &f.soil.relation, &singles);
-        for (int64_t slot = 0; slot < f.wall.n_slots * MOR_CLUSTER; ++slot) {
-            const int i = f.wall.slots[slot / MOR_CLUSTER].cluster * MOR_CLUSTER + (int)(slot % MOR_CLUSTER);
-            for (int k = 0; i < f.soil.n && k < 6; ++k) {
-                const double off = fabs(f.wall.divergence[6 * slot + k] - in_double[6 * slot + k]);
-                assert_true(off <= 256 * DBL_EPSILON * largest_terms(&f.soil, i)); /* some ulp of each term */
-            }
-        }
+        compare_divergence(&f, in_double, 256 * DBL_EPSILON); /* some ulp of each term */
         mor_pair_singles_clear(context, &singles);
         floor_close(&f);
     }
