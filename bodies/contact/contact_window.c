@@ -59,7 +59,7 @@ static double depth_at(const profile *it, double x, double y)
 
 /* Means over the window of the depth where it is positive, of its square, and of x and of the squared distance from the
  * node times the depth. */
-static void sum_window(const double *restrict weights, const profile *restrict it, double *restrict means)
+static void sum_window(const double *weights, const profile *it, double *means)
 {
     const double step = POINT_STEP * it->length;
     const int across = it->dimension == 3 ? HALF_POINTS : 0;
