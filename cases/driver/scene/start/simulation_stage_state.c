@@ -50,8 +50,8 @@ static void tell_density(mor_context *context, const mor_taken_soil *taken)
     for (int k = 0; k < c->n_soils; ++k) {
         if (mor_taken_soil_has(taken, k) && c->stage.density_ratio[k] != 1.0) {
             mor_context_log(context, MOR_LOG_PROGRESS,
-                            "soil '%s': its density is %.6g times that in '%s': its particles have become as much "
-                            "heavier at the same volume and stress",
+                            "soil '%s': its density is %.6g times that in '%s'; the mass of its particles changes "
+                            "with it, their volumes and stresses stay: write the density of that run to keep it",
                             c->soils[k].name, c->stage.density_ratio[k], c->stage.run);
         }
     }
