@@ -24,9 +24,9 @@ typedef double real;
 typedef int64_t bits;
 #endif
 
-/* Numbers in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others, so
- * that a particle's sums do not depend on the width. Eight singles fill half of the widest register: a cluster has no
- * more. */
+/* Particles in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others,
+ * so that a particle's sums do not depend on the width. Eight singles fill half of the widest register, and a cluster
+ * has no more: there each particle has two lanes next to one another, for two TARGETS of a loop over pairs. */
 #if defined(__AVX512F__) || (defined(__AVX__) && defined(MOR_SINGLE))
 #define LANES 8
 #elif defined(MOR_SINGLE)
@@ -36,17 +36,25 @@ typedef int64_t bits;
 #else
 #define LANES 2
 #endif
-enum { PARTS = MOR_CLUSTER / LANES };
+#if defined(__AVX512F__) && defined(MOR_SINGLE)
+#define TARGETS 2
+#else
+#define TARGETS 1
+#endif
+enum { PARTS = MOR_CLUSTER / LANES, WIDTH = LANES * TARGETS };
 
-/** One number for each of LANES particles. */
-typedef real vec __attribute__((vector_size(LANES * sizeof(real))));
+/** One number for each of LANES particles and each of TARGETS. */
+typedef real vec __attribute__((vector_size(WIDTH * sizeof(real))));
 
 #define INLINE static inline __attribute__((always_inline))
 
-/** Returns a number other than zero when any lane of a is less than b, else zero; any unit. */
+/** Returns a number other than zero when any lane of a is less than b, else zero; any unit. With two targets it has a
+ *  bit for each lane that is. */
 INLINE int any_less(vec a, real b)
 {
-#if defined(MOR_SINGLE) && defined(__AVX__)
+#if TARGETS == 2
+    return _mm512_cmp_ps_mask((__m512)a, _mm512_set1_ps(b), _CMP_LT_OQ);
+#elif defined(MOR_SINGLE) && defined(__AVX__)
     return _mm256_movemask_ps(_mm256_cmp_ps((__m256)a, _mm256_set1_ps(b), _CMP_LT_OQ));
 #elif defined(__AVX512F__)
     return _mm512_cmp_pd_mask((__m512d)a, _mm512_set1_pd(b), _CMP_LT_OQ);
@@ -61,6 +69,24 @@ INLINE int any_less(vec a, real b)
 #endif
 }
 
+#if TARGETS == 2
+/** Returns eight numbers, any unit, each in both lanes of its particle. */
+INLINE vec in_both_lanes(__m256 a)
+{
+    const __m512i particles = _mm512_set_epi32(7, 7, 6, 6, 5, 5, 4, 4, 3, 3, 2, 2, 1, 1, 0, 0);
+    return (vec)_mm512_permutexvar_ps(particles, _mm512_castps256_ps512(a));
+}
+
+/** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
+INLINE vec load(const real *records, int stride, int component)
+{
+    __m256 a;
+    for (int lane = 0; lane < LANES; ++lane) {
+        a[lane] = records[lane * stride + component];
+    }
+    return in_both_lanes(a);
+}
+#else
 /** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
 INLINE vec load(const real *records, int stride, int component)
 {
@@ -85,5 +111,6 @@ INLINE void store(real *out, int stride, int component, int n_lanes, vec a)
         out[lane * stride + component] = a[lane];
     }
 }
+#endif
 
 #endif

@@ -12,13 +12,24 @@
  *  Choices between lanes, tensors in lanes, and rows of records read and written at once. Only files named *_isa.c
  *  include it; not for others: the names are short. */
 
-/** A mask for each of LANES particles: all bits or none. */
-typedef bits mask __attribute__((vector_size(LANES * sizeof(bits))));
+/** A mask for each lane: all bits or none. */
+typedef bits mask __attribute__((vector_size(WIDTH * sizeof(bits))));
 
 /** Returns one number, any unit, in all lanes. */
 INLINE vec broadcast(real a)
 {
     return a - (vec){0.0};
+}
+
+/** Writes zeros to a, shape [n], any unit. A compiler that knew of the zeros would call for a string move, which takes
+ *  longer to start. */
+INLINE void set_zero(vec *a, const int n)
+{
+    vec zero = broadcast(0.0);
+    __asm__("" : "+x"(zero));
+    for (int k = 0; k < n; ++k) {
+        a[k] = zero;
+    }
 }
 
 /** Returns a where the mask is set, b elsewhere; any unit. */
@@ -28,7 +39,10 @@ INLINE vec select_lanes(mask where, vec a, vec b)
 }
 
 /* The names of the instructions that fill a register, where there are any. */
-#if defined(MOR_SINGLE) && defined(__AVX__) && defined(__FMA__)
+#if TARGETS == 2
+#define WIDE(operation) _mm512_##operation##_ps
+typedef __m512 wide;
+#elif defined(MOR_SINGLE) && defined(__AVX__) && defined(__FMA__)
 #define WIDE(operation) _mm256_##operation##_ps
 typedef __m256 wide;
 #elif defined(__AVX512F__)
@@ -63,11 +77,15 @@ INLINE vec smaller(vec a, vec b)
 /** Returns the square roots; any unit. */
 INLINE vec square_root(vec a)
 {
+#if TARGETS == 2
+    return (vec)_mm512_sqrt_ps((__m512)a);
+#else
     vec root;
     for (int lane = 0; lane < LANES; ++lane) {
         root[lane] = sizeof(real) == sizeof(float) ? (real)sqrtf((float)a[lane]) : (real)sqrt(a[lane]);
     }
     return root;
+#endif
 }
 
 /** Returns the number of lanes from a first particle on that hold particles of the set, 1. */
@@ -166,7 +184,11 @@ INLINE void load_first(const real *records, int stride, const int n, vec *out)
     }
     transpose_singles(rows, columns);
     for (int a = 0; a < n; ++a) {
+#if TARGETS == 2
+        out[a] = in_both_lanes(columns[a]);
+#else
         out[a] = (vec)columns[a];
+#endif
     }
 #elif defined(HAS_TRANSPOSE)
     __m512d rows[8];
@@ -186,6 +208,7 @@ INLINE void load_first(const real *records, int stride, const int n, vec *out)
 #endif
 }
 
+#if TARGETS == 1
 /** Writes the first n_lanes lanes of a, shape [n], any unit, to the first n components, at most 8, of consecutive
  *  records, shape [n_lanes, stride]. */
 INLINE void store_first(real *records, int stride, const int n, int n_lanes, const vec *a)
@@ -210,6 +233,7 @@ INLINE void store_first(real *records, int stride, const int n, int n_lanes, con
     }
 #endif
 }
+#endif
 
 /** Finds the cofactors of symmetric tensors, both shape [6], not aliased; unit: square of the tensors'. Returns their
  *  determinants, unit: cube of the tensors'. Of dimension 2: yz and zx are zero. */

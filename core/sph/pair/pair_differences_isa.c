@@ -2,22 +2,22 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Differences of stress over the neighbors of a cluster, for pair_tangent_isa.c. Compiled once per instruction set and
  * precision; MOR_ISA is the name of the set, MOR_SINGLE is defined for single precision. */
-#include "core/sph/pair/pair_lanes.h"
+#include "core/sph/pair/pair_rows.h"
 
 /* Stress components that a pass over a chunk sums, by three of the separation: as many sums as stay in registers. */
 enum { IN_PASS = 3 };
 
-/* Adds k (stress_i - stress_j)_s (r_i - r_j)_c, k with the volume in it, of the pairs of a chunk, for three of the
- * components s. */
-INLINE void add_differences(vec *sum, const geometries *chunk, const real *records, const int32_t *near, int size,
-                            const frame *f, const vec *stress, const int *components, const int dimension)
+/* Adds k (stress_i - stress_j)_s (r_i - r_j)_c, k with the volume in it, of the pairs of one turn of a chunk, for three
+ * of the components s. */
+INLINE void add_differences(vec *sum, const geometries *chunk, const record_rows *rows, int turn, const frame *f,
+                            const vec *stress, const int *components, const int dimension)
 {
     vec part[IN_PASS][3];
     for (int s = 0; s < IN_PASS; ++s) {
         memcpy(part[s], sum + 3 * components[s], sizeof part[s]);
     }
-    for (int q = 0; q < size; ++q) {
-        const real *target = records + (int64_t)near[q] * MOR_RECORD_SIZE;
+    for (int q = turn; q < rows_of(rows); q += TURNS) {
+        const real *target = record_row(rows, q);
         const geometry g = geometry_at(chunk, q, 0);
         vec r[3];
         separation_at(r, chunk, q, f, target, dimension);
@@ -25,7 +25,7 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const real *recor
             r[a] *= g.k;
         }
         for (int s = 0; s < IN_PASS; ++s) {
-            const vec difference = stress[components[s]] - target[MOR_RECORD_STRESS + components[s]];
+            const vec difference = stress[components[s]] - of_target(target, MOR_RECORD_STRESS + components[s]);
             for (int a = 0; a < dimension; ++a) {
                 part[s][a] = multiply_add(difference, r[a], part[s][a]);
             }
@@ -40,13 +40,17 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const real *recor
 /* Squared distance from which on a target is out of reach, over that of the support: rounding never leaves one out. */
 #define OUT_OF_REACH 1.000001F
 
-/* Finds the next targets of a list that any lane reaches, at most CHUNK, and keeps their separations; moves entry on.
- * Lists of soil that sleeps hold others, too, and how many depends on when they were built: what is added up in single
- * precision must not. */
+/* Finds the next targets of a list that any lane reaches, at most CHUNK, and keeps their separations where rows have
+ * one target; moves entry on. Lists of soil that sleeps hold others, too, and how many depends on when they were built:
+ * what is added up in single precision must not. */
 INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, const int32_t *near, int32_t count,
                       int32_t *entry, const frame *f, const int dimension)
 {
     const real support2 = OUT_OF_REACH / (f->half_inverse_h * f->half_inverse_h);
+#if TARGETS == 2
+    (void)chunk;
+    return find_reached(reached, f, records, near, count, entry, support2, dimension);
+#else
     int n = 0;
     for (; *entry < count && n < CHUNK; ++*entry) {
         const int32_t later = *entry + AHEAD < count ? near[*entry + AHEAD] : near[*entry];
@@ -59,6 +63,7 @@ INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, 
         n += any_less(distance2, support2) != 0;
     }
     return n;
+#endif
 }
 #else
 /* The next targets of a list, at most CHUNK: zeros change no sum. */
@@ -76,28 +81,33 @@ INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, 
 }
 #endif
 
-/* The sums over a chunk of the neighbors, whose separations are kept in single precision. */
-INLINE void sum_chunk(vec *sum, geometries *chunk, const real *records, const int32_t *near, int size, const frame *f,
-                      const vec *stress, const int dimension)
+/* Adds the sums over the particles of a part, shape [MOR_PAIR_DIFFERENCES], to those in double precision; in single
+ * precision they start anew.
+ *  unit: of a sum in single precision, Pa m4 (Pa m3 in plane strain) */
+INLINE void add_sums(double (*sums)[MOR_CLUSTER], int part, vec *sum, double unit)
 {
-    static const int plane[IN_PASS] = {MOR_XX, MOR_YY, MOR_XY}; /* no others act along a plane */
-    static const int rest[IN_PASS] = {MOR_ZZ, MOR_YZ, MOR_ZX};
-    for (int q = 0; q < size; ++q) {
-        find_geometry(chunk, q, records + (int64_t)near[q] * MOR_RECORD_SIZE, f, dimension, 0);
-    }
-    add_differences(sum, chunk, records, near, size, f, stress, plane, dimension);
-    if (dimension == 3) {
-        add_differences(sum, chunk, records, near, size, f, stress, rest, dimension);
+    for (int k = 0; k < MOR_PAIR_DIFFERENCES; ++k) {
+#if defined(MOR_SINGLE)
+        add_in_double(sums[k] + part * LANES, sum[k], unit);
+        sum[k] = broadcast(0.0);
+#else
+        (void)unit;
+        for (int lane = 0; lane < LANES; ++lane) {
+            sums[k][part * LANES + lane] += sum[k][lane];
+        }
+#endif
     }
 }
 
-/* Adds sums of a part of a cluster to those in double precision. */
-INLINE void add_sums(double (*sums)[MOR_CLUSTER], int part, const vec *sum, double unit)
+/* The sums over a chunk of the neighbors. */
+INLINE void sum_chunk(vec *sum, geometries *chunk, record_rows *rows, const frame *f, const vec *stress, int turn,
+                      const int dimension)
 {
-    for (int k = 0; k < MOR_PAIR_DIFFERENCES; ++k) {
-        for (int lane = 0; lane < LANES; ++lane) {
-            sums[k][part * LANES + lane] += unit * (double)sum[k][lane];
-        }
+    static const int plane[IN_PASS] = {MOR_XX, MOR_YY, MOR_XY}; /* no others act along a plane */
+    static const int rest[IN_PASS] = {MOR_ZZ, MOR_YZ, MOR_ZX};
+    add_differences(sum, chunk, rows, turn, f, stress, plane, dimension);
+    if (dimension == 3) {
+        add_differences(sum, chunk, rows, turn, f, stress, rest, dimension);
     }
 }
 
@@ -124,15 +134,29 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
     memset(sum, 0, sizeof sum);
     geometries chunk;
     int32_t reached[CHUNK];
+    record_rows rows;
+    rows.records = records;
+    rows.near = reached;
     for (int32_t entry = 0; entry < count;) {
-        const int size = find_chunk(&chunk, reached, records, near, count, &entry, &f, dimension);
-        sum_chunk(sum, &chunk, records, reached, size, &f, stress, dimension);
-        if (sizeof(real) == sizeof(float)) { /* singles add up within a chunk, doubles beyond */
-            add_sums(sums, part, sum, unit);
-            memset(sum, 0, sizeof sum);
+        rows.n = find_chunk(&chunk, reached, records, near, count, &entry, &f, dimension);
+        const int n = rows_of(&rows);
+        join_records(&rows, MOR_RECORD_SIZE);
+        for (int q = 0; q < n; ++q) {
+            find_geometry(&chunk, q, record_row(&rows, q), &f, dimension, 0);
+        }
+        if (n > 0) {
+            chunk.k[n - 1] = drop_repeated(chunk.k[n - 1], &rows);
+        }
+        for (int turn = 0; turn < TURNS; ++turn) {
+            sum_chunk(sum, &chunk, &rows, &f, stress, turn, dimension);
+            if (sizeof(real) == sizeof(float)) { /* singles add up within a turn, doubles beyond */
+                add_sums(sums, part, sum, unit);
+            }
         }
     }
-    add_sums(sums, part, sum, unit);
+    if (sizeof(real) == sizeof(double)) {
+        add_sums(sums, part, sum, unit);
+    }
 }
 
 void LOOP_NAME(differences)(const mor_pair_constants *c, const mor_pair_tangent_job *job, int64_t cluster,

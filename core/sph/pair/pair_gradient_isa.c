@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* The loop over velocity gradients. Compiled once per instruction set and precision; MOR_ISA is the name of the set,
  * MOR_SINGLE is defined for single precision. */
-#include "core/sph/pair/pair_lanes.h"
+#include "core/sph/pair/pair_rows.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -54,23 +54,24 @@ typedef struct gradient_form {
 void MOR_ISA_NAME(mor_pair_finish_gradient)(const double *totals, const mor_pair_constants *c,
                                             const mor_pair_arrays *arrays, int64_t cluster, gradient_form form);
 
-/* Where soils meet, v* is the mean of both velocities: the volume follows the motion that strains both. */
-INLINE void find_share(gradient_pair *it, const real *target, const gradient *g, const frame *f, const real *of_soil,
+/* Where soils meet, v* is the mean of both velocities: the volume follows the motion that strains both.
+ *  soils: shape [TARGETS]; numbers of the soils of the targets, 1; where there are several */
+INLINE void find_share(gradient_pair *it, const real *target, const gradient *g, const frame *f, const real *soils,
                        const gradient_form form)
 {
     const pair p = pair_of(f, target, form.dimension);
-    vec other = broadcast(target[MOR_RECORD_IMPEDANCE]);
+    vec other = of_target(target, MOR_RECORD_IMPEDANCE);
     it->distance = p.distance;
     it->reach = p.reach;
 #if defined(MOR_SINGLE)
     memcpy(it->r, p.r, sizeof it->r);
-    it->k = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+    it->k = p.reach * p.reach * p.reach * of_target(target, MOR_RECORD_VOLUME);
 #endif
     if (form.fits == 2) {
         return;
     }
     if (form.several) {
-        it->same = g->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX];
+        it->same = g->soil == of_target(soils, 0);
         other = select_lanes(it->same, other, g->impedance);
     }
     it->share = other / (g->impedance + other);
@@ -87,7 +88,7 @@ INLINE vec take_pair(const gradient_pair *it, const real *target, const frame *f
     return it->k;
 #else
     separate(r, f, target, dimension);
-    return it->reach * it->reach * it->reach * target[MOR_RECORD_VOLUME];
+    return it->reach * it->reach * it->reach * of_target(target, MOR_RECORD_VOLUME);
 #endif
 }
 
@@ -100,7 +101,7 @@ INLINE void add_gradient(gradient_sums *m, const gradient *g, const gradient_pai
     vec kr[3];
     const vec k = take_pair(it, target, f, r, dimension);
     for (int a = 0; a < dimension; ++a) {
-        jump[a] = g->v[a] - target[MOR_RECORD_VELOCITY + a];
+        jump[a] = g->v[a] - of_target(target, MOR_RECORD_VELOCITY + a);
     }
     for (int b = 0; b < dimension; ++b) {
         kr[b] = k * r[b];
@@ -117,8 +118,8 @@ INLINE void add_gradient(gradient_sums *m, const gradient *g, const gradient_pai
     const vec plane = multiply_add(kr[0], jump[0], kr[1] * jump[1]);
     m->rate += it->share * (dimension == 3 ? multiply_add(kr[2], jump[2], plane) : plane);
     if (form.pressure) {
-        const vec impedances = g->impedance + target[MOR_RECORD_IMPEDANCE];
-        vec pressures = g->pressure - target[MOR_RECORD_PRESSURE];
+        const vec impedances = g->impedance + of_target(target, MOR_RECORD_IMPEDANCE);
+        vec pressures = g->pressure - of_target(target, MOR_RECORD_PRESSURE);
         if (form.several) {
             pressures = (vec)((mask)pressures & it->same);
         }
@@ -245,11 +246,10 @@ INLINE bool has_sum(const int k, const gradient_form form)
 /* Adds the sums of a chunk to those in double precision. */
 INLINE void add_totals(double (*totals)[MOR_CLUSTER], const gradient_sums *sums, int64_t lane, const gradient_form form)
 {
-    typedef double unaligned __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
     const vec *of_chunk = (const vec *)sums;
     for (int k = 0; k < SUMS_OF(gradient_sums); ++k) {
         if (has_sum(k, form)) {
-            *(unaligned *)(totals[k] + lane) += __builtin_convertvector(of_chunk[k], unaligned);
+            add_in_double(totals[k] + lane, of_chunk[k], 1.0);
         }
     }
 }
@@ -273,34 +273,61 @@ INLINE void copy_sums(gradient_sums *to, const gradient_sums *from, const gradie
 #endif
 
 #if defined(MOR_SINGLE)
+/* Separations, weights and shares of the pairs of a chunk. */
+INLINE void find_chunk(gradient_pair *pairs, record_rows *rows, const mor_pair_arrays *arrays, const gradient *g,
+                       const frame *f, const gradient_form form)
+{
+    const int n = rows_of(rows);
+    for (int q = 0; q < rows->n; ++q) {
+        __builtin_prefetch(target_of(arrays, rows->near[q]));
+    }
+    join_records(rows, form.pressure ? MOR_RECORD_SIZE : MOR_RECORD_STRESS);
+    for (int q = 0; q < n; ++q) {
+        real soils[2] = {0.0F};
+        if (form.several) {
+            soils[0] = of_soil_of(arrays, first_of_row(rows, q), 1)[MOR_PAIR_OF_SOIL_INDEX];
+            soils[1] = of_soil_of(arrays, last_of_row(rows, q), 1)[MOR_PAIR_OF_SOIL_INDEX];
+        }
+        find_share(pairs + q, record_row(rows, q), g, f, soils, form);
+    }
+    pairs[n - 1].k = drop_repeated(pairs[n - 1].k, rows);
+}
+
 /* The sums in passes over a chunk of targets, each with the registers for itself, as in the momentum loop. */
 INLINE void sum_pairs(gradient_sums *sums, double (*totals)[MOR_CLUSTER], const mor_pair_arrays *arrays,
                       const gradient *g, const frame *f, const int32_t *near, int32_t count, int64_t first,
                       const gradient_form form)
 {
-    gradient_pair chunk[CHUNK];
+    gradient_pair chunk[CHUNK / TARGETS];
+    record_rows rows;
+    rows.records = READ(records);
     for (int32_t start = 0; start < count; start += CHUNK) {
-        const int n = count - start < CHUNK ? count - start : CHUNK;
-        gradient_sums of_chunk;
-        memset(&of_chunk, 0, sizeof of_chunk);
-        for (int q = 0; q < n; ++q) {
-            const int32_t j = near[start + q];
-            __builtin_prefetch(target_of(arrays, near[start + q + AHEAD < count ? start + q + AHEAD : start + q]));
-            find_share(chunk + q, target_of(arrays, j), g, f, of_soil_of(arrays, j, form.several), form);
+        rows.near = near + start;
+        rows.n = count - start < CHUNK ? count - start : CHUNK;
+        find_chunk(chunk, &rows, arrays, g, f, form);
+        for (int turn = 0; turn < TURNS; ++turn) {
+            gradient_sums of_chunk;
+            set_zero((vec *)&of_chunk, SUMS_OF(gradient_sums));
+            for (int q = turn; q < rows_of(&rows); q += TURNS) {
+                add_gradient(&of_chunk, g, chunk + q, record_row(&rows, q), f, form);
+            }
+            for (int q = turn; q < rows_of(&rows) && form.fits; q += TURNS) {
+                add_shape(&of_chunk, chunk + q, record_row(&rows, q), f, form);
+            }
+            copy_sums(sums, &of_chunk, form);
+            add_totals(totals, sums, first % MOR_CLUSTER, form);
         }
-        for (int q = 0; q < n; ++q) {
-            add_gradient(&of_chunk, g, chunk + q, target_of(arrays, near[start + q]), f, form);
-        }
-        for (int q = 0; q < n && form.fits; ++q) {
-            add_shape(&of_chunk, chunk + q, target_of(arrays, near[start + q]), f, form);
-        }
-        copy_sums(sums, &of_chunk, form);
-        add_totals(totals, sums, first % MOR_CLUSTER, form);
     }
 }
 #else
 /* RING: pairs in a ring, more than STEP_AHEAD. */
 enum { RING = 8 };
+
+/* The number of the soil of a target, shape [1], 1; NULL with one soil. */
+INLINE const real *soil_of(const mor_pair_arrays *arrays, int32_t j, const gradient_form form)
+{
+    return form.several ? of_soil_of(arrays, j, 1) + MOR_PAIR_OF_SOIL_INDEX : NULL;
+}
 
 INLINE void add_both(gradient_sums *m, const gradient *g, const gradient_pair *it, const real *target, const frame *f,
                      const gradient_form form)
@@ -318,14 +345,13 @@ INLINE void sum_pairs(gradient_sums *sums, double (*totals)[MOR_CLUSTER], const 
     (void)totals, (void)first;
     gradient_pair ring[RING];
     for (int32_t q = 0; q < count && q < STEP_AHEAD; ++q) {
-        find_share(ring + q % RING, target_of(arrays, near[q]), g, f, of_soil_of(arrays, near[q], form.several), form);
+        find_share(ring + q % RING, target_of(arrays, near[q]), g, f, soil_of(arrays, near[q], form), form);
     }
     int32_t q = 0;
     for (; q + STEP_AHEAD < count; ++q) {
         const int32_t later = q + STEP_AHEAD;
         __builtin_prefetch(target_of(arrays, near[q + AHEAD < count ? q + AHEAD : q]));
-        find_share(ring + later % RING, target_of(arrays, near[later]), g, f,
-                   of_soil_of(arrays, near[later], form.several), form);
+        find_share(ring + later % RING, target_of(arrays, near[later]), g, f, soil_of(arrays, near[later], form), form);
         add_both(sums, g, ring + q % RING, target_of(arrays, near[q]), f, form);
     }
     for (; q < count; ++q) {
@@ -343,7 +369,7 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     gradient g;
     gradient_sums sums;
     memset(&g, 0, sizeof g);
-    memset(&sums, 0, sizeof sums);
+    set_zero((vec *)&sums, SUMS_OF(gradient_sums));
     vec motion[4];
     load_first(own + MOR_RECORD_VELOCITY, MOR_RECORD_SIZE, 4, motion);
     memcpy(g.v, motion, sizeof g.v);
@@ -371,8 +397,8 @@ INLINE void gradient_cluster(const mor_pair_constants *c, const mor_pair_arrays 
                              const gradient_form form)
 {
 #if defined(MOR_SINGLE)
-    double totals[SUMS_OF(gradient_sums)][MOR_CLUSTER];
-    memset(totals, 0, sizeof totals);
+    double totals[SUMS_OF(gradient_sums)][MOR_CLUSTER] __attribute__((aligned(64)));
+    set_zero((vec *)totals, (int)(sizeof totals / sizeof(vec)));
     ask_for(arrays->records + cluster * MOR_CLUSTER * MOR_RECORD_SIZE,
             MOR_CLUSTER * MOR_RECORD_SIZE * (int64_t)sizeof(double), 0);
 #else

@@ -80,6 +80,33 @@ typedef struct pair {
     vec reach; /* 1 - q/2 inside the support, 0 outside */
 } pair;
 
+/* Numbers of the TARGETS that are summed at once stand next to one another in a row, shape [any, TARGETS]: with one, a
+ * row is a record. TURNS: in single precision the sums of a chunk over every other target are kept apart, in the lanes
+ * of a register where there are two targets, else one after the other, so that the bits are the same. */
+#if defined(MOR_SINGLE)
+enum { TURNS = 2 / TARGETS };
+#else
+enum { TURNS = 1 };
+#endif
+
+/** Returns number k of the targets of a row, each in its lanes; any unit. */
+INLINE vec of_target(const real *row, const int k)
+{
+#if TARGETS == 2
+    double both;
+    memcpy(&both, row + 2 * k, sizeof both);
+    return (vec)_mm512_castpd_ps(_mm512_set1_pd(both));
+#else
+    return broadcast(row[k]);
+#endif
+}
+
+/** Returns a row from its number k on. */
+INLINE const real *row_from(const real *row, const int k)
+{
+    return row + (ptrdiff_t)k * TARGETS;
+}
+
 /* The arithmetic of a pair is a long chain of dependent operations, and a processor looks no more than some hundred
  * operations ahead. Cut into passes over a chunk of targets, each chain is short, and many pairs are under way at once.
  * CHUNK: targets in a chunk. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD: entries of a
@@ -106,25 +133,36 @@ typedef struct geometries {
 #endif
 } geometries;
 
-/** Returns places less one coordinate of a target: exact where they are within the support. */
-INLINE vec away_from(places x, const real *target)
+/** Returns places less places of targets, either in all of their lanes: exact where they are within the support. */
+INLINE vec away_from(places x, vec target)
 {
 #if defined(MOR_SINGLE)
-    typedef uint32_t turns __attribute__((vector_size(LANES * sizeof(uint32_t)))); /* wraps around */
-    uint32_t at;
-    memcpy(&at, target, sizeof at);
-    return __builtin_convertvector((mask)((turns)x - at), vec);
+    typedef uint32_t turns __attribute__((vector_size(WIDTH * sizeof(uint32_t)))); /* wraps around */
+    return __builtin_convertvector((mask)((turns)x - (turns)target), vec);
 #else
-    return x - *target;
+    return x - target;
 #endif
 }
 
-/** Returns the vector from a target, shape [3], to the particles of a frame. */
-INLINE void separate(vec *r, const frame *f, const real *target, const int dimension)
+/** Returns coordinate k of the targets of a row, each in its lanes. */
+INLINE vec place_of_target(const real *row, const int k)
 {
-    r[0] = away_from(f->x[0], target);
-    r[1] = away_from(f->x[1], target + 1);
-    r[2] = dimension == 3 ? away_from(f->x[2], target + 2) : broadcast(0.0);
+#if defined(MOR_SINGLE) && TARGETS == 1
+    /* Of an integer a sum with zero would change the bits. */
+    bits at;
+    memcpy(&at, row + k, sizeof at);
+    return (vec)(at - (mask){0});
+#else
+    return of_target(row, k);
+#endif
+}
+
+/** Returns the vectors, shape [3], from the targets of a row to the particles of a frame. */
+INLINE void separate(vec *r, const frame *f, const real *row, const int dimension)
+{
+    r[0] = away_from(f->x[0], place_of_target(row, 0));
+    r[1] = away_from(f->x[1], place_of_target(row, 1));
+    r[2] = dimension == 3 ? away_from(f->x[2], place_of_target(row, 2)) : broadcast(0.0);
 }
 
 /** Returns its squared length, padded so that nothing divides by zero, unit m2. */
@@ -146,7 +184,7 @@ INLINE pair pair_of(const frame *f, const real *target, const int dimension)
     return p;
 }
 
-/** Keeps the separation of target q of a chunk and its squared length, in single precision. */
+/** Keeps the separation of row q of a chunk and its squared length, in single precision. */
 INLINE void keep_separation(geometries *g, int q, const vec *r, vec distance2, const int dimension)
 {
 #if defined(MOR_SINGLE)
@@ -159,7 +197,7 @@ INLINE void keep_separation(geometries *g, int q, const vec *r, vec distance2, c
 #endif
 }
 
-/** Finds that separation again, from a target, shape [3], or as it was kept. */
+/** Finds that separation again, from the targets of a row, or as it was kept. */
 INLINE void separation_at(vec *r, const geometries *g, int q, const frame *f, const real *target, const int dimension)
 {
 #if defined(MOR_SINGLE)
@@ -173,14 +211,18 @@ INLINE void separation_at(vec *r, const geometries *g, int q, const frame *f, co
 #endif
 }
 
-/** Finds the geometry of target q of a chunk, shape [MOR_RECORD_SIZE], units of MOR_RECORD_..., and the lanes of a
- *  frame; with_square: distance2, too. In single precision the separation is kept already. */
+/** Finds the geometry of row q of a chunk, shape [MOR_RECORD_SIZE, TARGETS], units of MOR_RECORD_..., and the lanes of
+ *  a frame; with_square: distance2, too. In single precision the separation is kept already, but of two targets. */
 INLINE void find_geometry(geometries *g, int q, const real *target, const frame *f, const int dimension,
                           const int with_square)
 {
 #if defined(MOR_SINGLE)
-    (void)dimension, (void)with_square;
+    (void)with_square;
     pair p;
+    if (TARGETS == 2) {
+        separate(p.r, f, target, dimension);
+        keep_separation(g, q, p.r, squared(p.r, f, dimension), dimension);
+    }
     p.distance = square_root(g->kept[q].distance2);
     p.reach = positive_part(1.0 - p.distance * f->half_inverse_h);
 #else
@@ -190,10 +232,10 @@ INLINE void find_geometry(geometries *g, int q, const real *target, const frame 
     }
 #endif
     g->distance[q] = p.distance;
-    g->k[q] = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
+    g->k[q] = p.reach * p.reach * p.reach * of_target(target, MOR_RECORD_VOLUME);
 }
 
-/** Returns what was found of target q. */
+/** Returns what was found of row q. */
 INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
 {
 #if defined(MOR_SINGLE)
@@ -215,7 +257,7 @@ INLINE vec artificial_factor(vec reach, vec trace, const mor_pair_constants *c)
     const vec shape = square * square * (4.0 * (1.0 - reach) + 1.0);
     const vec f = shape * (real)(c->kernel_normalization / c->spacing_kernel);
     vec power;
-    for (int lane = 0; lane < LANES; ++lane) {
+    for (int lane = 0; lane < WIDTH; ++lane) {
         const bool is_needed = f[lane] > 0.0 && trace[lane] != 0.0;
         power[lane] = is_needed ? (real)pow(f[lane], c->artificial_exponent) : (real)0.0;
     }

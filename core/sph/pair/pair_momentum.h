@@ -3,7 +3,7 @@
 #ifndef MOR_CORE_SPH_PAIR_PAIR_MOMENTUM_H
 #define MOR_CORE_SPH_PAIR_PAIR_MOMENTUM_H
 
-#include "core/sph/pair/pair_lanes.h"
+#include "core/sph/pair/pair_rows.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -92,17 +92,88 @@ INLINE void copy_sums(momentum_sums *to, const momentum_sums *from, const moment
  *  @param form   [in]      of the copy */
 INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const int part, const momentum_form form)
 {
-    typedef double wide_vec __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
     vec *of_chunk = (vec *)sums;
     for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
         if (has_sum(k, form)) {
-            wide_vec *total = (wide_vec *)(totals[k] + part * LANES);
-            *total += __builtin_convertvector(of_chunk[k], wide_vec);
+            add_in_double(totals[k] + part * LANES, of_chunk[k], 1.0);
             of_chunk[k] = broadcast(0.0);
         }
     }
 }
 #endif
+
+/** The targets of a chunk, and what is read of them beside their records. */
+typedef struct momentum_rows {
+    record_rows of;
+    const mor_pair_arrays *arrays;
+#if TARGETS == 2
+    real extra[CHUNK / TARGETS][MOR_EXTRA_SIZE * TARGETS] __attribute__((aligned(64)));
+    real strain_rate[CHUNK / TARGETS][STRAIN_SIZE * TARGETS] __attribute__((aligned(64)));
+    real of_soil[CHUNK / TARGETS][MOR_PAIR_OF_SOIL_SIZE * TARGETS];
+#endif
+} momentum_rows;
+
+/** Prefetches what is read of the targets after their positions, and joins them in rows. */
+INLINE void prepare_rows(momentum_rows *rows, const momentum_form form)
+{
+    const mor_pair_arrays *arrays = rows->arrays;
+    for (int q = 0; q < rows->of.n; ++q) {
+        const int32_t j = rows->of.near[q];
+        __builtin_prefetch(target_of(arrays, j) + MOR_RECORD_STRESS);
+        if (form.extra) {
+            __builtin_prefetch(extra_of(arrays, j));
+        }
+        if (form.extra && form.diffuses) {
+            __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
+        }
+        if (form.linear) {
+            __builtin_prefetch(strain_rate_of(arrays, j));
+        }
+    }
+    join_records(&rows->of, MOR_RECORD_SIZE);
+#if TARGETS == 2
+    for (int q = 0; q < rows_of(&rows->of); ++q) {
+        const int32_t i = first_of_row(&rows->of, q);
+        const int32_t j = last_of_row(&rows->of, q);
+        if (form.extra) {
+            join_targets(rows->extra[q], extra_of(arrays, i), extra_of(arrays, j), MOR_EXTRA_SIZE);
+        }
+        if (form.linear) {
+            join_targets(rows->strain_rate[q], strain_rate_of(arrays, i), strain_rate_of(arrays, j), STRAIN_SIZE);
+        }
+        for (int k = 0; k < MOR_PAIR_OF_SOIL_SIZE && form.several; ++k) {
+            rows->of_soil[q][2 * k] = of_soil_of(arrays, i, form.several)[k];
+            rows->of_soil[q][2 * k + 1] = of_soil_of(arrays, j, form.several)[k];
+        }
+    }
+#endif
+}
+
+#if TARGETS == 2
+#define ROW(name, target) (rows->name[q])
+#else
+#define ROW(name, target) (target)
+#endif
+
+/** Returns what is read beside the records of row q, shape [MOR_EXTRA_SIZE, TARGETS], units of MOR_EXTRA_...; NULL:
+ *  nothing. */
+INLINE const real *extra_row(const momentum_rows *rows, int q, const momentum_form form)
+{
+    return form.extra ? ROW(extra, extra_of(rows->arrays, rows->of.near[q])) : NULL;
+}
+
+/** Returns their strain rates, shape [6 and more, TARGETS], unit of strain_rate_of; NULL without reconstruction. */
+INLINE const real *strain_rate_row(const momentum_rows *rows, int q, const momentum_form form)
+{
+    return form.linear ? ROW(strain_rate, strain_rate_of(rows->arrays, rows->of.near[q])) : NULL;
+}
+
+/** Returns what is read of their soils, shape [MOR_PAIR_OF_SOIL_SIZE, TARGETS], units of the enum; NULL: one soil. */
+INLINE const real *of_soil_row(const momentum_rows *rows, int q, const momentum_form form)
+{
+    return form.several ? ROW(of_soil, of_soil_of(rows->arrays, rows->of.near[q], 1)) : NULL;
+}
+#undef ROW
 
 /** Writes what the sums of the loop in single precision give, by the routine of the loop in double precision.
  *  @param totals  [in]  shape [SUMS_OF(momentum_sums), 8]; units of the loop

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* The momentum loop. Compiled once per instruction set and precision; MOR_ISA is the name of the set, MOR_SINGLE is
  * defined for single precision. */
+#include "core/sph/pair/pair_artificial.h"
 #include "core/sph/pair/pair_momentum.h"
 
 #include <stdbool.h>
@@ -20,7 +21,7 @@ INLINE vec smooth_closing(const pair *p, const vec *own, const real *other, cons
 {
     vec d[6];
     for (int a = 0; a < 6; ++a) {
-        d[a] = own[a] + other[a];
+        d[a] = own[a] + of_target(other, a);
     }
     const vec *r = p->r;
     const vec twice_y = 2.0 * r[1];
@@ -48,11 +49,11 @@ INLINE shears shears_of(const real *stress, const real *extra, const momentum_fo
 {
     shears t;
     for (int a = 0; a < 3; ++a) {
-        t.upper[a] = t.lower[a] = broadcast(stress[MOR_XY + a]);
+        t.upper[a] = t.lower[a] = of_target(stress, MOR_XY + a);
         if (form.extra) {
-            t.lower[a] = broadcast(extra[MOR_EXTRA_LOWER + a]);
+            t.lower[a] = of_target(extra, MOR_EXTRA_LOWER + a);
             t.upper[a] =
-                a < 2 ? broadcast(extra[MOR_EXTRA_UPPER + a]) : multiply_add(t.upper[a], broadcast(2.0), -t.lower[a]);
+                a < 2 ? of_target(extra, MOR_EXTRA_UPPER + a) : multiply_add(t.upper[a], broadcast(2.0), -t.lower[a]);
         }
     }
     return t;
@@ -65,14 +66,14 @@ INLINE void add_stress(momentum_sums *m, const pair *p, vec k, vec extra, const 
     m->weight[0] += kr[0];
     m->weight[1] += kr[1];
     /* Each is summed before it is added: only the last addition waits for that of the pair before. */
-    vec x = multiply_add(kr[0], s[MOR_XX] + extra, kr[1] * t->upper[0]);
-    vec y = multiply_add(kr[0], t->lower[0], kr[1] * (s[MOR_YY] + extra));
+    vec x = multiply_add(kr[0], of_target(s, MOR_XX) + extra, kr[1] * t->upper[0]);
+    vec y = multiply_add(kr[0], t->lower[0], kr[1] * (of_target(s, MOR_YY) + extra));
     if (dimension == 3) {
         m->weight[2] += kr[2];
         x = multiply_add(kr[2], t->lower[2], x);
         y = multiply_add(kr[2], t->upper[1], y);
         const vec z = multiply_add(kr[0], t->upper[2], kr[1] * t->lower[1]);
-        m->force[2] += multiply_add(kr[2], s[MOR_ZZ] + extra, z);
+        m->force[2] += multiply_add(kr[2], of_target(s, MOR_ZZ) + extra, z);
     }
     m->force[0] += x;
     m->force[1] += y;
@@ -119,7 +120,7 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
                           const momentum_form form)
 {
     for (int a = 0; a < 6; ++a) {
-        m->spread_stress[a] += it->kd * s[a];
+        m->spread_stress[a] += it->kd * of_target(s, a);
     }
     m->spread_weight += it->kd;
     for (int a = 0; a < form.dimension; ++a) {
@@ -127,38 +128,23 @@ INLINE void add_diffusion(momentum_sums *m, const pair *p, const momentum_pair *
     }
     if (form.extra) {
         for (int a = 0; a < 6; ++a) {
-            m->spread_mean[a] += it->rest * extra[MOR_EXTRA_MEAN + a];
+            m->spread_mean[a] += it->rest * of_target(extra, MOR_EXTRA_MEAN + a);
         }
         m->spread_rest += it->rest;
     }
 }
 
-/* f^n (R_i + R_j) r, eq. 27, of a pair under tension.
- *  own: shape [6], Pa */
-INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_constants *c, vec k, const vec *own,
-                           const real *other, const int dimension)
-{
-    vec s[6];
-    for (int a = 0; a < 6; ++a) {
-        s[a] = own[a] + other[a];
-    }
-    const vec power = artificial_factor(p->reach, s[MOR_XX] + s[MOR_YY] + s[MOR_ZZ], c);
-    for (int a = 0; a < 6; ++a) {
-        s[a] *= power;
-    }
-    m->force[0] += k * dot_r(p, s[MOR_XX], s[MOR_XY], s[MOR_ZX], dimension);
-    m->force[1] += k * dot_r(p, s[MOR_XY], s[MOR_YY], s[MOR_YZ], dimension);
-    if (dimension == 3) {
-        m->force[2] += k * dot_r(p, s[MOR_ZX], s[MOR_YZ], s[MOR_ZZ], dimension);
-    }
-}
-
 /* The stiffness between two soils, the harmonic mean, over the own one. Exactly 1 in one soil, so that what a cluster
  * lists beyond its reach does not change the rounding of its sums. */
-INLINE vec relative_stiffness(vec own, real other)
+INLINE vec relative_stiffness(vec own, const mor_pair_constants *c, const real *of_soil)
 {
+    real of_targets[TARGETS];
+    for (int t = 0; t < TARGETS; ++t) {
+        of_targets[t] = (real)c->soils[(int)row_from(of_soil, MOR_PAIR_OF_SOIL_INDEX)[t]].hourglass;
+    }
+    const vec other = of_target(of_targets, 0);
     const vec sum = own + other;
-    return select_lanes(sum > 0.0, (real)(2.0 * other) / sum, broadcast(0.0));
+    return select_lanes(sum > 0.0, 2.0 * other / sum, broadcast(0.0));
 }
 
 /* Weights of stress diffusion; moved: how far the pair moves on the scale of the limiter, 1. */
@@ -172,10 +158,10 @@ INLINE void find_diffusion(momentum_pair *it, const geometry *g, const momentum 
     }
     if (form.several) {
         /* Stress jumps where soils meet, and must not spread across. */
-        it->kd = (vec)((mask)it->kd & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
+        it->kd = (vec)((mask)it->kd & (m->soil == of_target(of_soil, MOR_PAIR_OF_SOIL_INDEX)));
     }
     if (form.extra) {
-        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + extra[MOR_EXTRA_FLOW]));
+        const vec rest = it->kd * (1.0 - 0.5 * (m->flow + of_target(extra, MOR_EXTRA_FLOW)));
         it->rest = c->has_transient ? rest : broadcast(0.0);
     }
 }
@@ -187,8 +173,10 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const
     const vec *v = m->v;
     pair p;
     memcpy(p.r, r, sizeof p.r);
-    const vec impedance_sum = m->impedance + target[MOR_RECORD_IMPEDANCE];
-    const vec way = dot_r(&p, target[4] - v[0], target[5] - v[1], target[6] - v[2], form.dimension);
+    const vec impedance_sum = m->impedance + of_target(target, MOR_RECORD_IMPEDANCE);
+    const vec way =
+        dot_r(&p, of_target(target, MOR_RECORD_VELOCITY) - v[0], of_target(target, MOR_RECORD_VELOCITY + 1) - v[1],
+              of_target(target, MOR_RECORD_VELOCITY + 2) - v[2], form.dimension);
     /* Division is slow: all quotients share one. */
     const vec divisor = g->distance * impedance_sum;
     const vec moves = larger(magnitude(way), broadcast(LEAST_MOTION));
@@ -206,7 +194,7 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const
     }
     /* Closing speed on which the limiter acts, eq. 23. */
     const vec limiter_rate =
-        form.several ? m->limiter + of_soil[MOR_PAIR_OF_SOIL_LIMITER] : broadcast((real)c->limiter_rate);
+        form.several ? m->limiter + of_target(of_soil, MOR_PAIR_OF_SOIL_LIMITER) : broadcast((real)c->limiter_rate);
     const vec slope = closing * limiter_rate;
     const vec counted = larger(slope * m->closing_sign, slope * m->opening_sign);
     vec limited = smaller(counted, broadcast(1.0)) * closing;
@@ -215,19 +203,19 @@ INLINE void find_extra(momentum_pair *it, const geometry *g, const vec *r, const
         limited *= share;
     }
     /* Twice (mean pressure - P*), eq. 20. */
-    vec pressures = (m->pressure - target[MOR_RECORD_PRESSURE]) * (m->impedance - target[MOR_RECORD_IMPEDANCE]);
+    vec pressures = (m->pressure - of_target(target, MOR_RECORD_PRESSURE)) *
+                    (m->impedance - of_target(target, MOR_RECORD_IMPEDANCE));
     if (form.several) {
         /* The mean pressure jumps where soils of unlike K0 meet at rest: no wave, so the mean of both stresses acts. */
-        pressures = (vec)((mask)pressures & (m->soil == of_soil[MOR_PAIR_OF_SOIL_INDEX]));
+        pressures = (vec)((mask)pressures & (m->soil == of_target(of_soil, MOR_PAIR_OF_SOIL_INDEX)));
     }
-    const vec dissipation = m->minus_twice_impedance * target[MOR_RECORD_IMPEDANCE];
+    const vec dissipation = m->minus_twice_impedance * of_target(target, MOR_RECORD_IMPEDANCE);
     it->extra = multiply_add(dissipation, limited, pressures) * (inverse * g->distance);
     if (form.diffuses) {
         find_diffusion(it, g, m, f, c, magnitude(speed) * limiter_rate, of_soil, extra, form);
     }
     if (form.extra && form.several) {
-        it->stiffness =
-            relative_stiffness(m->stiffness, (real)c->soils[(int)of_soil[MOR_PAIR_OF_SOIL_INDEX]].hourglass);
+        it->stiffness = relative_stiffness(m->stiffness, c, of_soil);
     }
 }
 
@@ -238,7 +226,7 @@ INLINE void add_hourglass(momentum_sums *m, const pair *p, vec k, vec stiffness,
     const vec km = form.several ? k * stiffness : k;
     m->stiffness += km;
     for (int a = 0; a < form.dimension; ++a) {
-        m->hourglass[a] = multiply_add(km, broadcast(d[a]), m->hourglass[a]);
+        m->hourglass[a] = multiply_add(km, of_target(d, a), m->hourglass[a]);
         if (form.several) {
             /* Rounded as the sum of k r is. */
             vec kr = k * p->r[a];
@@ -253,13 +241,14 @@ INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *
 {
     pair p;
     memcpy(p.r, r, sizeof p.r);
-    const shears t = shears_of(target + MOR_RECORD_STRESS, extra, form);
-    add_stress(m, &p, g->k, it->extra, target + MOR_RECORD_STRESS, &t, form.dimension);
+    const real *stress = row_from(target, MOR_RECORD_STRESS);
+    const shears t = shears_of(stress, extra, form);
+    add_stress(m, &p, g->k, it->extra, stress, &t, form.dimension);
     if (form.extra) {
-        add_hourglass(m, &p, g->k, it->stiffness, extra + MOR_EXTRA_HOURGLASS, form);
+        add_hourglass(m, &p, g->k, it->stiffness, row_from(extra, MOR_EXTRA_HOURGLASS), form);
     }
     if (form.diffuses && !form.extra) {
-        add_diffusion(m, &p, it, target + MOR_RECORD_STRESS, extra, form);
+        add_diffusion(m, &p, it, stress, extra, form);
     }
 }
 
@@ -271,51 +260,13 @@ typedef struct momentum_part {
     momentum_sums sums;
 } momentum_part;
 
-/* Artificial stress of a chunk of targets. The power is expensive, and few pairs are under tension: an artificial
- * stress has no tension of its own, so that those of two particles do not cancel. */
-INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, const int32_t *near, int n,
-                                 const mor_pair_constants *c, const mor_pair_arrays *arrays, const momentum_form form)
-{
-    const frame *f = &part->frame;
-    vec own[6];
-    vec size = broadcast(0.0);
-    for (int a = 0; a < 6; ++a) {
-        own[a] = load(READ(artificial_stress) + part->first * 6, 6, a);
-        size -= magnitude(own[a]);
-    }
-    const bool has_own = any_less(size, 0.0);
-    for (int q = 0; q < n; ++q) {
-        const real *other = READ(artificial_stress) + (int64_t)near[q] * 6;
-        if (has_own || other[MOR_XX] != 0.0 || other[MOR_YY] != 0.0 || other[MOR_ZZ] != 0.0) {
-            const geometry g = geometry_at(chunk, q, 0);
-            pair p;
-            separation_at(p.r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
-            p.reach = positive_part(1.0 - g.distance * f->half_inverse_h);
-            add_artificial(&part->sums, &p, c, g.k, own, other, form.dimension);
-        }
-    }
-}
-
-/* Out of the many copies of the momentum loop, which would all hold them. */
-typedef void (*adder)(momentum_part *part, const geometries *chunk, const int32_t *near, int n,
-                      const mor_pair_constants *c, const mor_pair_arrays *arrays);
-#define MOR_ARTIFICIAL_FUNCTION(name, dimension)                                                                       \
-    __attribute__((noinline)) static void name(momentum_part *part, const geometries *chunk, const int32_t *near,      \
-                                               int n, const mor_pair_constants *c, const mor_pair_arrays *arrays)      \
-    {                                                                                                                  \
-        add_artificial_chunk(part, chunk, near, n, c, arrays, (momentum_form){(dimension), 0, 0, 0, 0});               \
-    }
-MOR_ARTIFICIAL_FUNCTION(artificial_2d, 2)
-MOR_ARTIFICIAL_FUNCTION(artificial_3d, 3)
-static const adder artificial_adders[2] = {artificial_2d, artificial_3d};
-
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
 {
     const real *own = READ(records) + first * MOR_RECORD_SIZE;
     momentum *m = &part->own;
-    memset(m, 0, sizeof *m);
-    memset(&part->sums, 0, sizeof part->sums);
+    set_zero((vec *)m, (int)(sizeof *m / sizeof(vec)));
+    set_zero((vec *)&part->sums, SUMS_OF(momentum_sums));
     part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->closing_sign = broadcast(c->dissipation != MOR_DISSIPATION_SEPARATION ? 1.0 : 0.0);
@@ -337,7 +288,7 @@ INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, con
         m->limiter = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_LIMITER);
         m->soil = load(of_soil, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_INDEX);
     }
-    for (int lane = 0; lane < LANES && form.several && form.extra; ++lane) {
+    for (int lane = 0; lane < WIDTH && form.several && form.extra; ++lane) {
         m->stiffness[lane] = (real)c->soils[(int)m->soil[lane]].hourglass;
     }
 }
@@ -350,83 +301,99 @@ INLINE void compiler_barrier(momentum_part *part)
 
 /* With means there are more sums of the diffusion than registers beside those of the forces. */
 INLINE void add_diffusions(momentum_part *part, const geometries *chunk, const momentum_pairs *pairs,
-                           const int32_t *near, int n, const mor_pair_arrays *arrays, const momentum_form form)
+                           const momentum_rows *rows, int turn, const momentum_form form)
 {
     momentum_sums sums;
     copy_sums(&sums, &part->sums, form);
-    for (int q = 0; q < n; ++q) {
-        const real *target = target_of(arrays, near[q]);
+    for (int q = turn; q < rows_of(&rows->of); q += TURNS) {
+        const real *target = record_row(&rows->of, q);
         const momentum_pair it = pair_at(pairs, q, form);
         pair p;
         separation_at(p.r, chunk, q, &part->frame, target, form.dimension);
-        add_diffusion(&sums, &p, &it, target + MOR_RECORD_STRESS, extra_of(arrays, near[q]), form);
+        add_diffusion(&sums, &p, &it, row_from(target, MOR_RECORD_STRESS), extra_row(rows, q, form), form);
     }
     copy_sums(&part->sums, &sums, form);
     compiler_barrier(part);
 }
 
-/* Prefetches what is read of a target in reach after its position. */
-INLINE void prefetch_rest(const mor_pair_arrays *arrays, int32_t j, const momentum_form form)
-{
-    __builtin_prefetch(target_of(arrays, j) + MOR_RECORD_STRESS);
-    if (form.extra) {
-        __builtin_prefetch(extra_of(arrays, j));
-    }
-    if (form.extra && form.diffuses) {
-        __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
-    }
-    if (form.linear) {
-        __builtin_prefetch(strain_rate_of(arrays, j));
-    }
-}
-
-INLINE void add_chunk(momentum_part *part, geometries *chunk, const int32_t *near, int n, const mor_pair_constants *c,
-                      const mor_pair_arrays *arrays, const momentum_form form)
+/* Geometry of a chunk and what is found of its pairs before they are added. */
+INLINE void find_pairs(momentum_pairs *pairs, momentum_part *part, geometries *chunk, const momentum_rows *rows,
+                       const mor_pair_constants *c, const momentum_form form)
 {
     const frame *f = &part->frame;
-    momentum_pairs pairs;
+    const int n = rows_of(&rows->of);
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
-        prefetch_rest(arrays, near[q], form);
-        find_geometry(chunk, q, target_of(arrays, near[q]), f, form.dimension, form.diffuses);
+        find_geometry(chunk, q, record_row(&rows->of, q), f, form.dimension, form.diffuses);
     }
+    chunk->k[n - 1] = drop_repeated(chunk->k[n - 1], &rows->of);
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
-        const real *strain_rate = form.linear ? strain_rate_of(arrays, near[q]) : NULL;
-        const real *of_soil = of_soil_of(arrays, near[q], form.several);
-        const real *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
         const geometry g = geometry_at(chunk, q, form.diffuses);
         momentum_pair it;
         vec r[3];
-        separation_at(r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
-        find_extra(&it, &g, r, target_of(arrays, near[q]), &part->own, f, c, strain_rate, of_soil, extra, form);
-        keep_pair(&pairs, q, &it, form);
+        separation_at(r, chunk, q, f, record_row(&rows->of, q), form.dimension);
+        find_extra(&it, &g, r, record_row(&rows->of, q), &part->own, f, c, strain_rate_row(rows, q, form),
+                   of_soil_row(rows, q, form), extra_row(rows, q, form), form);
+        keep_pair(pairs, q, &it, form);
     }
     compiler_barrier(part);
-    momentum_sums sums;
-    copy_sums(&sums, &part->sums, form);
-    for (int q = 0; q < n; ++q) {
-        const real *extra = form.extra ? extra_of(arrays, near[q]) : NULL;
-        const geometry g = geometry_at(chunk, q, form.diffuses);
-        const momentum_pair it = pair_at(&pairs, q, form);
-        vec r[3];
-        separation_at(r, chunk, q, f, target_of(arrays, near[q]), form.dimension);
-        add_pair(&sums, &it, &g, r, target_of(arrays, near[q]), extra, form);
-    }
-    copy_sums(&part->sums, &sums, form);
-    compiler_barrier(part);
-    if (form.diffuses && form.extra) {
-        add_diffusions(part, chunk, &pairs, near, n, arrays, form);
-    }
-    if (c->has_artificial_stress) {
-        artificial_adders[form.dimension - 2](part, chunk, near, n, c, arrays);
+}
+
+/* Adds the pairs of a chunk; in single precision to totals, shape [SUMS_OF(momentum_sums), 8].
+ *  number: of the part */
+INLINE void add_chunk(momentum_part *part, int number, geometries *chunk, const momentum_rows *rows,
+                      double (*totals)[MOR_CLUSTER], const mor_pair_constants *c, const momentum_form form)
+{
+    momentum_pairs pairs;
+    find_pairs(&pairs, part, chunk, rows, c, form);
+    for (int turn = 0; turn < TURNS; ++turn) {
+        momentum_sums sums;
+        copy_sums(&sums, &part->sums, form);
+        for (int q = turn; q < rows_of(&rows->of); q += TURNS) {
+            const geometry g = geometry_at(chunk, q, form.diffuses);
+            const momentum_pair it = pair_at(&pairs, q, form);
+            vec r[3];
+            separation_at(r, chunk, q, &part->frame, record_row(&rows->of, q), form.dimension);
+            add_pair(&sums, &it, &g, r, record_row(&rows->of, q), extra_row(rows, q, form), form);
+        }
+        copy_sums(&part->sums, &sums, form);
+        compiler_barrier(part);
+        if (form.diffuses && form.extra) {
+            add_diffusions(part, chunk, &pairs, rows, turn, form);
+        }
+        if (c->has_artificial_stress) {
+            artificial_adders[form.dimension - 2](&part->sums, part->first, &part->frame, chunk, rows, turn, c);
+        }
+#if defined(MOR_SINGLE)
+        add_totals(totals, &part->sums, number, form);
+#else
+        (void)totals, (void)number;
+#endif
     }
 }
 
 /* Chunks that are kept at once: in double precision the parts of a cluster take turns. */
 enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
 
+/* Squared distance within which a target is listed as near: slightly wider than the support, so that rounding omits no
+ * pair within it. */
+INLINE real near_reach2(const frame *f)
+{
+    const real margin = sizeof(real) == sizeof(float) ? (real)0x1p-19 : (real)0x1p-40;
+    return (real)(1.0 + margin) / (f->half_inverse_h * f->half_inverse_h);
+}
+
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
+#if TARGETS == 2
+INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
+                     int32_t count, int32_t *entry, int32_t *near, const int dimension)
+{
+    const frame f = parts[0].frame;
+    (void)chunks;
+    return find_reached(near, &f, READ(records), list, count, entry, near_reach2(&f), dimension);
+}
+#else
 INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
                      int32_t count, int32_t *entry, int32_t *near, const int dimension)
 {
@@ -434,9 +401,7 @@ INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_p
     for (int part = 0; part < PARTS; ++part) {
         frames[part] = parts[part].frame;
     }
-    /* Slightly wider, so that rounding omits no pair within the support. */
-    const real half = frames[0].half_inverse_h;
-    const real reach2 = (real)(1.0 + (sizeof(real) == sizeof(float) ? 0x1p-19 : 0x1p-40)) / (half * half);
+    const real reach2 = near_reach2(frames);
     int32_t k = *entry;
     int n = 0;
     for (; k < count && n < CHUNK; ++k) {
@@ -455,6 +420,7 @@ INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_p
     *entry = k;
     return n;
 }
+#endif
 
 #if defined(MOR_SINGLE)
 /* Prefetches what is read of a cluster in double precision once the sums are known. */
@@ -473,13 +439,18 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 {
     momentum_part parts[PARTS];
     geometries chunks[KEPT];
+    momentum_rows rows;
+    rows.arrays = arrays;
+    rows.of.records = READ(records);
     for (int part = 0; part < PARTS; ++part) {
         start_momentum(parts + part, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
     }
 #if defined(MOR_SINGLE)
-    double totals[SUMS_OF(momentum_sums)][MOR_CLUSTER];
-    memset(totals, 0, sizeof totals);
+    double totals[SUMS_OF(momentum_sums)][MOR_CLUSTER] __attribute__((aligned(64)));
+    set_zero((vec *)totals, (int)(sizeof totals / sizeof(vec)));
     ask_for_doubles(arrays, cluster, form);
+#else
+    double(*totals)[MOR_CLUSTER] = NULL;
 #endif
     const int32_t *list = arrays->inner->lists[cluster];
     const int32_t count = arrays->inner->counts[cluster];
@@ -487,11 +458,11 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
         const int n = find_near(parts, chunks, arrays, list, count, &entry, near + n_near, form.dimension);
-        for (int part = 0; part < PARTS; ++part) {
-            add_chunk(parts + part, chunks + part % KEPT, near + n_near, n, c, arrays, form);
-#if defined(MOR_SINGLE)
-            add_totals(totals, &parts[part].sums, part, form);
-#endif
+        rows.of.near = near + n_near;
+        rows.of.n = n;
+        prepare_rows(&rows, form);
+        for (int part = 0; part < PARTS && n > 0; ++part) {
+            add_chunk(parts + part, part, chunks + part % KEPT, &rows, totals, c, form);
         }
         n_near += n;
     }

@@ -23,7 +23,7 @@ typedef struct copied {
 /* What copies are made of, and in which units. */
 typedef struct packing {
     copied list[N_ARRAYS];
-    double unit, volume_unit;
+    double per_unit, per_volume_unit; /* powers of two: products with them are exact */
     int64_t n; /* particles */
 } packing;
 
@@ -39,8 +39,8 @@ static packing open_packing(const mor_pair_constants *constants, mor_pair_single
         {arrays->strain_rate, &singles->strain_rate, &out->strain_rate, unit, 6, MOR_PAIR_SINGLE_STRAIN},
         {arrays->of_soil, &singles->of_soil, &out->of_soil, 1.0, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE}};
     packing it = {.n = arrays->n_particles,
-                  .unit = unit,
-                  .volume_unit = mor_pair_volume_unit(constants->smoothing_length, constants->dimension)};
+                  .per_unit = 1.0 / unit,
+                  .per_volume_unit = 1.0 / mor_pair_volume_unit(constants->smoothing_length, constants->dimension)};
     memcpy(it.list, all, sizeof all);
     return it;
 }
@@ -64,16 +64,16 @@ static mor_status reserve(mor_context *context, mor_pair_singles *singles, const
 }
 
 /* A length in units of places, modulo 2^32. */
-static uint32_t round_length(double length, double unit)
+static uint32_t round_length(double length, double per_unit)
 {
-    return (uint32_t)llrint(length / unit);
+    return (uint32_t)llrint(length * per_unit);
 }
 
 /* Whole periods along an axis in units of places: a multiple of one rounded period, modulo 2^32. */
-static uint32_t round_periods(const mor_images *images, int axis, double length, double unit)
+static uint32_t round_periods(const mor_images *images, int axis, double length, double per_unit)
 {
     const double period = images->period->length[axis];
-    return period > 0.0 ? (uint32_t)llrint(length / period) * round_length(period, unit) : 0;
+    return period > 0.0 ? (uint32_t)llrint(length / period) * round_length(period, per_unit) : 0;
 }
 
 /* Places become integers, which stand where singles would. What puts a particle back through a face is rounded by
@@ -86,12 +86,19 @@ static void copy_record(const packing *it, const mor_images *images, int64_t i)
     for (int a = MOR_RECORD_VOLUME + 1; a < MOR_RECORD_SIZE; ++a) {
         out[a] = (float)record[a];
     }
-    out[MOR_RECORD_VOLUME] = (float)(record[MOR_RECORD_VOLUME] / it->volume_unit);
+    out[MOR_RECORD_VOLUME] = (float)(record[MOR_RECORD_VOLUME] * it->per_volume_unit);
     for (int a = 0; a < 3; ++a) {
         const double wrapped = wrap != NULL ? wrap[a] : 0.0;
-        uint32_t at = round_length(record[MOR_RECORD_POSITION + a] - wrapped, it->unit);
-        at += wrapped != 0.0 ? round_periods(images, a, wrapped, it->unit) : 0;
+        uint32_t at = round_length(record[MOR_RECORD_POSITION + a] - wrapped, it->per_unit);
+        at += wrapped != 0.0 ? round_periods(images, a, wrapped, it->per_unit) : 0;
         memcpy(out + MOR_RECORD_POSITION + a, &at, sizeof at);
+    }
+}
+
+static inline void copy_numbers(float *out, const double *from, double scale, const int width)
+{
+    for (int a = 0; a < width; ++a) {
+        out[a] = (float)(scale * from[a]);
     }
 }
 
@@ -100,8 +107,15 @@ static void copy_entry(const packing *it, const mor_images *images, int64_t i)
     const copied *list = it->list;
     copy_record(it, images, i);
     for (int k = 1; k < N_ARRAYS; ++k) {
-        for (int a = 0; list[k].from != NULL && a < list[k].width; ++a) {
-            (*list[k].room)[i * list[k].out_width + a] = (float)(list[k].scale * list[k].from[i * list[k].width + a]);
+        if (list[k].from == NULL) {
+            continue;
+        }
+        float *out = *list[k].room + i * list[k].out_width;
+        const double *from = list[k].from + i * list[k].width;
+        if (list[k].width == MOR_EXTRA_SIZE) { /* a copy of the loop whose length is known */
+            copy_numbers(out, from, list[k].scale, MOR_EXTRA_SIZE);
+        } else {
+            copy_numbers(out, from, list[k].scale, list[k].width);
         }
     }
 }
@@ -145,7 +159,7 @@ static void copy_image(const packing *it, const mor_images *images, int64_t k)
         float *place = *list[0].room + i * MOR_RECORD_SIZE + MOR_RECORD_POSITION + a;
         uint32_t at;
         memcpy(&at, place, sizeof at);
-        at += round_periods(images, a, images->shift[3 * k + a], it->unit);
+        at += round_periods(images, a, images->shift[3 * k + a], it->per_unit);
         memcpy(place, &at, sizeof at);
     }
 }

@@ -1,0 +1,183 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef MOR_CORE_SPH_PAIR_PAIR_ROWS_H
+#define MOR_CORE_SPH_PAIR_PAIR_ROWS_H
+
+#include "core/sph/pair/pair_lanes.h"
+
+/** @file
+ *  The targets of a chunk in rows of TARGETS, and sums over them. Only files named *_isa.c include it; not for others:
+ *  the names are short. */
+
+#if TARGETS == 2
+/* Bits of the lanes of the first. */
+#define FIRST_TARGET 0x5555
+
+/** Writes the numbers of two targets, shape [n] each, any unit, to a row.
+ *  @param row [out]  shape [n, 2]; on a boundary of 64 bytes
+ *  @param n   [in]   a multiple of 8 */
+INLINE void join_targets(real *row, const real *a, const real *b, const int n)
+{
+    const __m512i low = _mm512_set_epi32(23, 7, 22, 6, 21, 5, 20, 4, 19, 3, 18, 2, 17, 1, 16, 0);
+    const __m512i high = _mm512_set_epi32(31, 15, 30, 14, 29, 13, 28, 12, 27, 11, 26, 10, 25, 9, 24, 8);
+    for (int k = 0; k < n; k += 16) {
+        if (n - k >= 16) {
+            const __m512 of_a = _mm512_loadu_ps(a + k);
+            const __m512 of_b = _mm512_loadu_ps(b + k);
+            _mm512_store_ps(row + 2 * (ptrdiff_t)k, _mm512_permutex2var_ps(of_a, low, of_b));
+            _mm512_store_ps(row + 2 * (ptrdiff_t)k + 16, _mm512_permutex2var_ps(of_a, high, of_b));
+        } else {
+            const __m512 of_a = _mm512_castps256_ps512(_mm256_loadu_ps(a + k));
+            const __m512 of_b = _mm512_castps256_ps512(_mm256_loadu_ps(b + k));
+            _mm512_store_ps(row + 2 * (ptrdiff_t)k, _mm512_permutex2var_ps(of_a, low, of_b));
+        }
+    }
+}
+#endif
+
+#if defined(MOR_SINGLE)
+/** Adds a sum over a chunk, of both targets one after the other, to those of the particles in double precision.
+ *  @param total [in,out]  shape [LANES], any unit
+ *  @param sum   [in]      over the targets
+ *  @param unit  [in]      1; that of the sum over that of total, a power of two */
+INLINE void add_in_double(double *total, vec sum, double unit)
+{
+    typedef double doubles __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
+#if TARGETS == 2
+    const __m512i first = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 0, 14, 12, 10, 8, 6, 4, 2, 0);
+    const __m512i second = _mm512_set_epi32(0, 0, 0, 0, 0, 0, 0, 0, 15, 13, 11, 9, 7, 5, 3, 1);
+    const __m512 a = _mm512_permutexvar_ps(first, (__m512)sum);
+    const __m512 b = _mm512_permutexvar_ps(second, (__m512)sum);
+    *(doubles *)total += unit * (doubles)_mm512_cvtps_pd(_mm512_castps512_ps256(a));
+    *(doubles *)total += unit * (doubles)_mm512_cvtps_pd(_mm512_castps512_ps256(b));
+#else
+    *(doubles *)total += unit * __builtin_convertvector(sum, doubles);
+#endif
+}
+#endif
+
+#if TARGETS == 2
+/** Returns the vectors, shape [3], from two targets, of which the places, shape [3], are read alone, as separate. */
+INLINE void separate_two(vec *r, const frame *f, const real *a, const real *b, const int dimension)
+{
+    r[2] = broadcast(0.0);
+    for (int k = 0; k < dimension; ++k) {
+        const __m512 first = _mm512_set1_ps(a[k]);
+        r[k] = away_from(f->x[k], (vec)_mm512_mask_broadcastss_ps(first, 0xaaaa, _mm_load_ss(b + k)));
+    }
+}
+#endif
+
+#if TARGETS == 2
+/* Bits of the lanes in which targets i and j are nearer than the square root of reach2. */
+INLINE int lanes_reached(const frame *f, const real *records, int32_t i, int32_t j, real reach2, const int dimension)
+{
+    vec r[3];
+    separate_two(r, f, records + (int64_t)i * MOR_RECORD_SIZE, records + (int64_t)j * MOR_RECORD_SIZE, dimension);
+    return any_less(squared(r, f, dimension), reach2);
+}
+
+/** Finds which targets of a list are within a distance of any particle, until there are as many as a chunk holds.
+ *  @param reached   [out]     shape [CHUNK]; the targets
+ *  @param f         [in]      of the particles
+ *  @param records   [in]      shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...
+ *  @param list      [in]      shape [count]; targets
+ *  @param count     [in]      of the list, 1
+ *  @param entry     [in,out]  shape [1]; next of the list
+ *  @param reach2    [in]      square of the distance, padded as squared is
+ *  @param dimension [in]      2 or 3
+ *  Returns: how many. */
+INLINE int find_reached(int32_t *reached, const frame *f, const real *records, const int32_t *list, int32_t count,
+                        int32_t *entry, real reach2, const int dimension)
+{
+    int32_t k = *entry;
+    int n = 0;
+    for (; k + 1 + AHEAD < count && n + 1 < CHUNK; k += 2) { /* nothing to look after: both exist, and are kept */
+        __builtin_prefetch(records + (int64_t)list[k + AHEAD] * MOR_RECORD_SIZE);
+        __builtin_prefetch(records + (int64_t)list[k + AHEAD + 1] * MOR_RECORD_SIZE);
+        const int lanes = lanes_reached(f, records, list[k], list[k + 1], reach2, dimension);
+        reached[n] = list[k];
+        n += (lanes & FIRST_TARGET) != 0;
+        reached[n] = list[k + 1];
+        n += (lanes & ~FIRST_TARGET) != 0;
+    }
+    while (k < count && n < CHUNK) {
+        const int lanes = lanes_reached(f, records, list[k], list[k + 1 < count ? k + 1 : k], reach2, dimension);
+        reached[n] = list[k++];
+        n += (lanes & FIRST_TARGET) != 0;
+        if (k < count && n < CHUNK) {
+            reached[n] = list[k++];
+            n += (lanes & ~FIRST_TARGET) != 0;
+        }
+    }
+    *entry = k;
+    return n;
+}
+#endif
+
+/** The targets of a chunk. */
+typedef struct record_rows {
+    const real *records; /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
+    const int32_t *near; /* shape [n]; the targets */
+    int n;               /* of them, 1 <= n <= CHUNK */
+#if TARGETS == 2
+    real joined[CHUNK / TARGETS][MOR_RECORD_SIZE * TARGETS] __attribute__((aligned(64)));
+#endif
+} record_rows;
+
+/** Returns the number of rows of a chunk, 1. */
+INLINE int rows_of(const record_rows *rows)
+{
+    return (rows->n + TARGETS - 1) / TARGETS;
+}
+
+/** Returns the first target of row q. */
+INLINE int32_t first_of_row(const record_rows *rows, int q)
+{
+    return rows->near[TARGETS * q];
+}
+
+/** Returns the last target of row q: in the last row of an odd number of targets the first once more. */
+INLINE int32_t last_of_row(const record_rows *rows, int q)
+{
+    const int last = TARGETS * q + TARGETS - 1;
+    return rows->near[last < rows->n ? last : TARGETS * q];
+}
+
+/** Joins the first n numbers of the records, a multiple of 8, of the targets of a chunk. */
+INLINE void join_records(record_rows *rows, const int n)
+{
+#if TARGETS == 2
+    for (int q = 0; q < rows_of(rows); ++q) {
+        const real *a = rows->records + (int64_t)first_of_row(rows, q) * MOR_RECORD_SIZE;
+        const real *b = rows->records + (int64_t)last_of_row(rows, q) * MOR_RECORD_SIZE;
+        join_targets(rows->joined[q], a, b, n);
+    }
+#else
+    (void)rows, (void)n;
+#endif
+}
+
+/** Returns the records of row q, shape [MOR_RECORD_SIZE, TARGETS], units of MOR_RECORD_...; with two targets as many
+ *  numbers as were joined. */
+INLINE const real *record_row(const record_rows *rows, int q)
+{
+#if TARGETS == 2
+    return rows->joined[q];
+#else
+    return rows->records + (int64_t)rows->near[q] * MOR_RECORD_SIZE;
+#endif
+}
+
+/** Returns the weights of the last row of a chunk, any unit, without those of a target that it has twice. */
+INLINE vec drop_repeated(vec weights, const record_rows *rows)
+{
+#if TARGETS == 2
+    return rows->n % TARGETS == 0 ? weights : (vec)_mm512_maskz_mov_ps(FIRST_TARGET, (__m512)weights);
+#else
+    (void)rows;
+    return weights;
+#endif
+}
+
+#endif
