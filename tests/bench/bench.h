@@ -4,13 +4,14 @@
 #define MOR_TESTS_BENCH_BENCH_H
 
 #include "core/base/parallel.h"
+#include "tests/bench/peak.h"
 #include "tests/bench/reference.h"
 
 #include <unistd.h>
 
 /** @file
  *  What all speed benches share: the choice of rows, what is printed of each, the table they add up to. Options:
- *      [--names] [--write] [--table FILE] [NAME]...
+ *      [--names] [--machine] [--write] [--table FILE] [NAME]...
  *  Without names all rows are timed. Names that a bench does not have are left to the others. No result is judged: a
  *  bench only fails when it cannot run. */
 
@@ -20,8 +21,9 @@ enum { BENCH_REPETITIONS_MAX = 9 };
 typedef struct bench {
     bool is_writing;           /* rows go into the reference file */
     const char *table_path;    /* rows are added to this file too, zero-terminated; NULL: no */
-    bool has_reference;        /* whether there is something to compare with */
-    bench_table reference;     /* as read */
+    char machine[BENCH_LINE];  /* as bench_describe_machine */
+    bench_reference reference; /* as read */
+    bench_block *block;        /* of this machine; NULL: nothing to compare with */
     bench_table measured;      /* rows timed so far */
     int n_names;               /* rows asked for; 0: all */
     const char *const *wanted; /* shape [n_names], each zero-terminated */
@@ -68,12 +70,12 @@ static inline double bench_print_speed(int n_threads, double n_particle_steps, d
 /** Tells how a row compares with the reference, and keeps it for the table and the reference file. */
 static inline void bench_report(bench *it, const bench_result *result)
 {
-    const bench_result *reference = it->has_reference ? bench_find(&it->reference, result->name) : NULL;
+    const bench_result *reference = it->block != NULL ? bench_find(&it->block->table, result->name) : NULL;
     char ratio[16] = "-";
     if (reference != NULL) {
         snprintf(ratio, sizeof ratio, "%.2f", result->speed / reference->speed);
         printf("  %s of the reference\n", ratio);
-    } else if (it->has_reference) {
+    } else if (it->block != NULL) {
         printf("  not in the reference\n");
     }
     printf("\n");
@@ -85,7 +87,7 @@ static inline void bench_report(bench *it, const bench_result *result)
     if (table != NULL) {
         char cells[3][BENCH_CELL];
         bench_print_cells(result, cells);
-        fprintf(table, "%-16s %10lld %15.3f %17s %12s %8s %8s\n", result->name, (long long)result->n_particles,
+        fprintf(table, "%-18s %10lld %15.3f %17s %12s %8s %8s\n", result->name, (long long)result->n_particles,
                 result->speed, ratio, cells[0], cells[1], cells[2]);
         fclose(table);
     } else if (it->table_path != NULL) {
@@ -117,6 +119,11 @@ static inline int bench_read_options(bench *it, const bench_program *program, in
         const char *name = NULL;
         if (strcmp(argv[at], "--write") == 0) {
             it->is_writing = true;
+        } else if (strcmp(argv[at], "--machine") == 0) {
+            const bench_peak peak = bench_measure_peak();
+            printf("%s\n", it->machine);
+            bench_print_peak(stdout, &peak);
+            exit(0);
         } else if (strcmp(argv[at], "--table") == 0 && at + 1 < argc) {
             it->table_path = argv[++at];
         } else if (strcmp(argv[at], "--names") == 0) {
@@ -126,8 +133,9 @@ static inline int bench_read_options(bench *it, const bench_program *program, in
             }
             exit(0);
         } else {
-            fprintf(stderr, "%s: '%s' is not understood. Use: [--names] [--write] [--table FILE] [NAME]...\n", argv[0],
-                    argv[at]);
+            fprintf(stderr,
+                    "%s: '%s' is not understood. Use: [--names] [--machine] [--write] [--table FILE] [NAME]...\n",
+                    argv[0], argv[at]);
             return 2;
         }
     }
@@ -146,14 +154,27 @@ static inline bool bench_is_wanted(const bench *it, const char *name)
     return it->n_names == 0;
 }
 
+/* Finds the speeds to compare with, and tells when there are none of this machine. */
+static inline void bench_find_reference(bench *it, const char *path)
+{
+    if (!bench_reference_read(path, &it->reference)) {
+        return;
+    }
+    it->block = bench_find_block(&it->reference, it->machine);
+    if (it->block == NULL) {
+        fprintf(stderr, "%s holds no speeds of this machine, %s; ./dev bench --write adds them\n", path, it->machine);
+    }
+}
+
 /** Times the rows that the command line asks for; to be returned by main.
  *  @param argc    [in]  number of words
  *  @param argv    [in]  shape [argc], each zero-terminated
  *  Returns: the exit code: 0; 1 when the reference file could not be written; 2 when the options are wrong. */
 static inline int bench_main(int argc, char **argv, const bench_program *program)
 {
-    bench it = {0};
+    static bench it;
     bench_wait_as_the_program_does(argv);
+    bench_describe_machine(it.machine);
     const int code = bench_read_options(&it, program, argc, argv);
     if (code != 0) {
         return code;
@@ -165,12 +186,12 @@ static inline int bench_main(int argc, char **argv, const bench_program *program
             continue;
         }
         if (it.measured.n_rows == 0) {
-            it.has_reference = bench_reference_read(program->reference_path, &it.reference);
+            bench_find_reference(&it, program->reference_path);
         }
         program->run(&it, row);
     }
     const bool has_news = it.is_writing && it.measured.n_rows > 0;
-    return has_news && !bench_reference_write(program->reference_path, &it.measured) ? 1 : 0;
+    return has_news && !bench_reference_write(program->reference_path, it.machine, &it.measured) ? 1 : 0;
 }
 
 #endif

@@ -28,14 +28,15 @@ for name in "$@"; do
 done
 
 bad=""
+printf '==> This machine\n'
+"${program:?}" --machine
 for program in "$programs"/bench_*; do
     code=0
     "$program" $write --table "$table" "$@" || code=$?
     [ "$code" = 0 ] || bad="$bad ${program##*/} (code $code)"
 done
-printf '==> Speeds on all cores; the reference was measured on\n'
-sed -n 's/^# \(Machine\|Date of the last row\): /    /p' "$reference" 2>/dev/null || true
-printf '%-16s %10s %15s %17s %12s %8s %8s\n' row particles 'M part.-steps/s' 'of the reference' 'bytes/part.' kappa \
+printf '==> Speeds on all cores; the reference is what %s holds of this kind of machine\n' "$reference"
+printf '%-18s %10s %15s %17s %12s %8s %8s\n' row particles 'M part.-steps/s' 'of the reference' 'bytes/part.' kappa \
     'I_CE %'
 cat "$table"
 [ -z "$bad" ] || { echo "bench: not completed:$bad" >&2; exit 1; }

@@ -46,6 +46,21 @@ static const soil_row rows[] = {
     {"soil-3d-2m", CASES "column-3d/case.cfg", {"spacing=1.163 mm", SOFT, UNEVEN, MOVING, NULL}, 20, 20, 3, false},
 };
 
+/* What a loop over pairs must compute in one lane for one target with the default scheme, by dimension less 2, counted
+ * from the source: a fused multiply-add as two operations, a root or a division as one, what is computed again from
+ * pass to pass once. A test of distance is made for all of a list, the rest for those in reach. */
+typedef struct pair_work {
+    const char *stage;
+    int test[2];
+    int rest[2];
+    int n_roots, n_divisions; /* among the rest */
+} pair_work;
+
+static const pair_work works[] = {
+    {"momentum", {7, 9}, {121, 154}, 1, 2},
+    {"velocity gradient", {0, 0}, {38, 62}, 1, 0},
+};
+
 /* What was measured with one number of threads. */
 typedef struct soil_timing {
     int n_threads;
@@ -125,6 +140,61 @@ static void time_repetitions(soil_bench *it, int n_repetitions)
     }
 }
 
+/* Targets of all clusters. */
+typedef struct target_counts {
+    double listed, near;
+} target_counts;
+
+static target_counts count_targets(const mor_soil *soil, int64_t n_clusters)
+{
+    target_counts counts = {0.0, 0.0};
+    for (int64_t cluster = 0; cluster < n_clusters; ++cluster) {
+        counts.listed += soil->inner.counts[cluster];
+        counts.near += soil->inner.near_counts[cluster];
+    }
+    return counts;
+}
+
+/* What a loop over pairs reaches of the peak of a core; seconds: of it in one step. */
+static void print_share(const pair_work *work, const mor_soil *soil, const target_counts *counts,
+                        const bench_peak *peak, double seconds)
+{
+    const int space = soil->settings.dimension - 2;
+    const bool is_mixed = soil->settings.scheme.precision == 1;
+    const double operations = MOR_CLUSTER * (counts->listed * work->test[space] + counts->near * work->rest[space]);
+    const double gflops = 1.0e-9 * operations / seconds;
+    printf("    %s: %.0f ns a particle, %.0f GFlop/s, %.0f %% of the peak", work->stage,
+           1.0e9 * seconds / (double)soil->set.n_particles, gflops,
+           100.0 * gflops / (is_mixed ? peak->single_gflops : peak->double_gflops));
+    if (!is_mixed) {
+        const double registers = counts->near * MOR_CLUSTER * 64.0 / peak->register_bits;
+        const double slow = 1.0e-9 * (work->n_roots * peak->root_ns + work->n_divisions * peak->division_ns);
+        printf("; roots and divisions alone would take %.0f %% of its time", 100.0 * registers * slow / seconds);
+    }
+    printf("\n");
+}
+
+static void print_shares(const soil_bench *it, const soil_timing *timing, int n_repetitions)
+{
+    const mor_soil *soil = &it->scene->simulation.soil;
+    const mor_stepper *stepper = &it->meter.steppers[0].plain;
+    const bench_peak peak = bench_measure_peak();
+    const int64_t n_clusters = (soil->set.n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    const target_counts counts = count_targets(soil, n_clusters);
+    printf("    ");
+    bench_print_peak(stdout, &peak);
+    printf("    targets of a cluster: %.1f listed, %.1f in reach\n", counts.listed / (double)n_clusters,
+           counts.near / (double)n_clusters);
+    for (int k = 0; k < stepper->n_stages && peak.register_bits > 0; ++k) {
+        for (size_t w = 0; w < sizeof works / sizeof *works; ++w) {
+            if (strcmp(stepper->stages[k].name, works[w].stage) == 0) {
+                print_share(&works[w], soil, &counts, &peak,
+                            timing->stage_seconds[k] / ((double)it->n_steps * n_repetitions));
+            }
+        }
+    }
+}
+
 /* Returns million particle-steps per second. */
 static double print_timing(const soil_bench *it, soil_timing *timing, int n_repetitions)
 {
@@ -133,6 +203,9 @@ static double print_timing(const soil_bench *it, soil_timing *timing, int n_repe
     printf("    %d steps each, %.1f steps between lists\n", it->n_steps,
            (double)it->n_steps * n_repetitions / (timing->n_lists > 0 ? timing->n_lists : 1));
     print_stages(&it->meter.steppers[0].plain, timing->stage_seconds);
+    if (timing->n_threads == 1) {
+        print_shares(it, timing, n_repetitions);
+    }
     return speed;
 }
 

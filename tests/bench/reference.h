@@ -4,6 +4,7 @@
 #define MOR_TESTS_BENCH_REFERENCE_H
 
 #include "core/base/parallel.h"
+#include "core/sph/pair/pair.h"
 
 #include <errno.h>
 #include <math.h>
@@ -14,13 +15,14 @@
 #include <time.h>
 
 /** @file
- *  The reference file of the speed benches: speeds that were measured once, to compare with. Lines that begin with #
- *  tell on what machine and when; every other line is a row of five words, see reference.txt. */
+ *  The reference file of the speed benches: speeds that were measured once, to compare with, in one block for each kind
+ *  of machine. A line "# Machine: ..." begins a block, other lines that begin with # are comments; every other line is
+ *  a row of five words, see reference.txt. */
 
 /** Where the reference file is; only where MOR_SOURCE_DIR is defined. */
 #define BENCH_REFERENCE_PATH MOR_SOURCE_DIR "/tests/bench/reference.txt"
 
-enum { BENCH_ROWS_MAX = 64, BENCH_NAME = 32, BENCH_CELL = 24, BENCH_LINE = 256 };
+enum { BENCH_ROWS_MAX = 64, BENCH_BLOCKS_MAX = 16, BENCH_NAME = 32, BENCH_CELL = 24, BENCH_LINE = 256 };
 
 /** What was measured of one row. */
 typedef struct bench_result {
@@ -37,6 +39,19 @@ typedef struct bench_table {
     bench_result rows[BENCH_ROWS_MAX];
     int n_rows;
 } bench_table;
+
+/** What was measured on one kind of machine. */
+typedef struct bench_block {
+    char machine[BENCH_LINE]; /* zero-terminated; see bench_describe_machine */
+    char date[BENCH_CELL];    /* zero-terminated; of the last row */
+    bench_table table;
+} bench_block;
+
+/** All of the file. */
+typedef struct bench_reference {
+    bench_block blocks[BENCH_BLOCKS_MAX];
+    int n_blocks;
+} bench_reference;
 
 /** Finds a row by its name, zero-terminated; NULL when there is none.
  *  @param name  [in]  zero-terminated */
@@ -108,17 +123,43 @@ static inline const char *bench_read_row(char *line, bench_table *table)
     return NULL;
 }
 
+/* What the lines of a block's head begin with. */
+#define BENCH_MACHINE "# Machine: "
+#define BENCH_DATE "# Date of the last row: "
+
+/* Reads a line into the reference; NULL, or what is wrong with it. */
+static inline const char *bench_read_line(char *line, bench_reference *reference)
+{
+    bench_block *block = reference->n_blocks > 0 ? &reference->blocks[reference->n_blocks - 1] : NULL;
+    if (strncmp(line, BENCH_MACHINE, strlen(BENCH_MACHINE)) == 0) {
+        if (reference->n_blocks == BENCH_BLOCKS_MAX) {
+            return "there are too many machines";
+        }
+        block = &reference->blocks[reference->n_blocks++];
+        memset(block, 0, sizeof *block);
+        snprintf(block->machine, sizeof block->machine, "%s", line + strlen(BENCH_MACHINE));
+        snprintf(block->date, sizeof block->date, "unknown");
+    } else if (strncmp(line, BENCH_DATE, strlen(BENCH_DATE)) == 0 && block != NULL) {
+        snprintf(block->date, sizeof block->date, "%.*s", BENCH_CELL - 1, line + strlen(BENCH_DATE));
+    } else if (line[0] != '#' && block == NULL && line[strspn(line, " \t")] != '\0') {
+        return "a row stands above the first line that begins with " BENCH_MACHINE;
+    } else if (line[0] != '#' && block != NULL) {
+        return bench_read_row(line, &block->table);
+    }
+    return NULL;
+}
+
 /** Reads the reference file; what is wrong with it is told on the error output, with file and line.
- *  @param path  [in]   zero-terminated
- *  @param table [out]  empty after a failure
+ *  @param path      [in]   zero-terminated
+ *  @param reference [out]  one object; empty after a failure
  *  Returns: whether the file is there and in order. */
-static inline bool bench_reference_read(const char *path, bench_table *table)
+static inline bool bench_reference_read(const char *path, bench_reference *reference)
 {
     char line[BENCH_LINE];
     const char *problem = NULL;
     int number = 0;
     FILE *file = fopen(path, "r");
-    table->n_rows = 0;
+    reference->n_blocks = 0;
     if (file == NULL) {
         fprintf(stderr,
                 "%s: %s, so speeds are told without ratios. Get it back from the repository, or write a new "
@@ -130,11 +171,8 @@ static inline bool bench_reference_read(const char *path, bench_table *table)
         const bool is_whole = strchr(line, '\n') != NULL;
         line[strcspn(line, "\r\n")] = '\0';
         ++number;
-        if (!is_whole) {
-            problem = "the line is too long, or the file ends in the middle of it";
-        } else if (line[0] != '#') {
-            problem = bench_read_row(line, table);
-        }
+        problem =
+            is_whole ? bench_read_line(line, reference) : "the line is too long, or the file ends in the middle of it";
     }
     if (problem == NULL && ferror(file) != 0) {
         problem = "the file cannot be read further";
@@ -145,102 +183,97 @@ static inline bool bench_reference_read(const char *path, bench_table *table)
                 "%s:%d: %s, so speeds are told without ratios. Mend the line or get the file back from the "
                 "repository; or remove it and write a new one: ./dev bench --write\n",
                 path, number, problem);
-        table->n_rows = 0;
+        reference->n_blocks = 0;
     }
     return problem == NULL;
 }
 
-/* The processor and how many of its cores this process may use, as one line, zero-terminated. */
-static inline void bench_describe_machine(char *text)
+/** Finds what was measured on a machine, zero-terminated; NULL when there is nothing. */
+static inline bench_block *bench_find_block(bench_reference *reference, const char *machine)
+{
+    for (int k = 0; k < reference->n_blocks; ++k) {
+        if (strcmp(reference->blocks[k].machine, machine) == 0) {
+            return &reference->blocks[k];
+        }
+    }
+    return NULL;
+}
+
+/* The value of a key of /proc/cpuinfo, zero-terminated, shape [BENCH_LINE / 2]; "unknown" when it is not there. */
+static inline void bench_read_processor(const char *key, char *value)
 {
     char line[BENCH_LINE];
-    char model[BENCH_LINE / 2] = "unknown processor";
+    const size_t length = strlen(key);
     FILE *file = fopen("/proc/cpuinfo", "r");
+    strcpy(value, "unknown");
     while (file != NULL && fgets(line, sizeof line, file) != NULL) {
         const char *colon = strchr(line, ':');
-        if (strncmp(line, "model name", 10) == 0 && colon != NULL) {
+        if (strncmp(line, key, length) == 0 && line[length] == '\t' && colon != NULL) {
             line[strcspn(line, "\n")] = '\0';
-            snprintf(model, sizeof model, "%s", colon + 1 + strspn(colon + 1, " "));
+            snprintf(value, BENCH_LINE / 2, "%s", colon + 1 + strspn(colon + 1, " "));
             break;
         }
     }
     if (file != NULL) {
         fclose(file);
     }
-    snprintf(text, BENCH_LINE, "# Machine: %s, %d cores", model, mor_parallel_cores());
 }
 
-/* Whether the file, if there is one, was measured on this machine; tells when not. */
-static inline bool bench_is_of_this_machine(const char *path, const char *machine)
+/** Names the kind of machine: its processor, the widest instruction set that the loops use on it, and how many cores
+ *  this process may use.
+ *  @param text [out]  shape [BENCH_LINE], zero-terminated */
+static inline void bench_describe_machine(char *text)
 {
-    char line[BENCH_LINE];
-    bool is_same = true;
-    FILE *file = fopen(path, "r");
-    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
-        line[strcspn(line, "\r\n")] = '\0';
-        if (strncmp(line, "# Machine:", 10) == 0 && strcmp(line, machine) != 0) {
-            fprintf(stderr,
-                    "%s: not written: it holds '%s', this is '%s'. One file holds one machine: remove it "
-                    "first to write a new one\n",
-                    path, line + 2, machine + 2);
-            is_same = false;
-        }
-    }
-    if (file != NULL) {
-        fclose(file);
-    }
-    return is_same;
+    char values[3][BENCH_LINE / 2];
+    bench_read_processor("model name", values[0]);
+    bench_read_processor("cpu family", values[1]);
+    bench_read_processor("model", values[2]);
+    snprintf(text, BENCH_LINE, "%.120s, family %.16s, model %.16s, %s, %d cores", values[0], values[1], values[2],
+             mor_pair_select(NULL)->instruction_set, mor_parallel_cores());
 }
 
-static inline void bench_print_rows(FILE *file, const char *machine, const bench_table *table)
+static inline void bench_print_block(FILE *file, const bench_block *block)
+{
+    fprintf(file, "\n" BENCH_MACHINE "%s\n" BENCH_DATE "%s\n", block->machine, block->date);
+    fprintf(file, "# row               M particle-steps/s  bytes per particle    kappa   I_CE %%\n");
+    for (int k = 0; k < block->table.n_rows; ++k) {
+        const bench_result *row = &block->table.rows[k];
+        char cells[3][BENCH_CELL];
+        bench_print_cells(row, cells);
+        fprintf(file, "%-18s %20.3f %19s %8s %8s\n", row->name, row->speed, cells[0], cells[1], cells[2]);
+    }
+}
+
+/* Puts rows into a block, in place of rows of the same name, beside the others. */
+static inline void bench_add_rows(bench_block *block, const bench_table *measured)
 {
     const time_t now = time(NULL);
-    char date[BENCH_CELL] = "unknown";
-    strftime(date, sizeof date, "%Y-%m-%d", localtime(&now));
-    fprintf(file,
-            "# Speeds to compare with, median of several repetitions on all cores; written by ./dev bench "
-            "--write [NAME]...\n%s\n# Date of the last row: %s\n",
-            machine, date);
-    fprintf(file, "# row             M particle-steps/s  bytes per particle    kappa   I_CE %%\n");
-    for (int k = 0; k < table->n_rows; ++k) {
-        char cells[3][BENCH_CELL];
-        bench_print_cells(&table->rows[k], cells);
-        fprintf(file, "%-16s %20.3f %19s %8s %8s\n", table->rows[k].name, table->rows[k].speed, cells[0], cells[1],
-                cells[2]);
-    }
-}
-
-/** Writes rows into the reference file, in place of rows of the same name, beside the others; the file is never half
- *  written. What goes wrong is told on the error output.
- *  @param path     [in]  zero-terminated
- *  Returns: whether the file was written. */
-static inline bool bench_reference_write(const char *path, const bench_table *measured)
-{
-    bench_table table = {.n_rows = 0};
-    char machine[BENCH_LINE];
-    char temporary[1024];
-    bench_describe_machine(machine);
-    FILE *old = fopen(path, "r");
-    if (old != NULL) {
-        fclose(old);
-        if (!bench_is_of_this_machine(path, machine) || !bench_reference_read(path, &table)) {
-            return false;
-        }
-    }
+    strftime(block->date, sizeof block->date, "%Y-%m-%d", localtime(&now));
     for (int k = 0; k < measured->n_rows; ++k) {
-        bench_result *row = bench_find(&table, measured->rows[k].name);
-        if (row == NULL && table.n_rows < BENCH_ROWS_MAX) {
-            row = &table.rows[table.n_rows++];
+        bench_result *row = bench_find(&block->table, measured->rows[k].name);
+        if (row == NULL && block->table.n_rows < BENCH_ROWS_MAX) {
+            row = &block->table.rows[block->table.n_rows++];
         }
         if (row != NULL) {
             *row = measured->rows[k];
         }
     }
+}
+
+/* Writes all of the file, which is never half written; whether that went well. */
+static inline bool bench_replace_file(const char *path, const bench_reference *reference)
+{
+    char temporary[1024];
     snprintf(temporary, sizeof temporary, "%s.new", path);
     FILE *file = fopen(temporary, "w");
     bool is_written = file != NULL;
     if (file != NULL) {
-        bench_print_rows(file, machine, &table);
+        fprintf(file,
+                "# Speeds to compare with, median of several repetitions on all cores, one block for each kind of "
+                "machine; written by ./dev bench --write [NAME]...\n");
+        for (int k = 0; k < reference->n_blocks; ++k) {
+            bench_print_block(file, &reference->blocks[k]);
+        }
         is_written = ferror(file) == 0;
         is_written = fclose(file) == 0 && is_written && rename(temporary, path) == 0;
     }
@@ -250,6 +283,38 @@ static inline bool bench_reference_write(const char *path, const bench_table *me
         remove(temporary);
     }
     return is_written;
+}
+
+/** Writes rows into the block of a machine in the reference file, in place of rows of the same name, beside the others
+ *  and the blocks of other machines. What goes wrong is told on the error output.
+ *  @param path     [in]  zero-terminated
+ *  @param machine  [in]  zero-terminated
+ *  @param measured [in]  one object
+ *  Returns: whether the file was written. */
+static inline bool bench_reference_write(const char *path, const char *machine, const bench_table *measured)
+{
+    static bench_reference reference;
+    FILE *old = fopen(path, "r");
+    reference.n_blocks = 0;
+    if (old != NULL) {
+        fclose(old);
+        if (!bench_reference_read(path, &reference)) {
+            return false;
+        }
+    }
+    bench_block *block = bench_find_block(&reference, machine);
+    if (block == NULL && reference.n_blocks == BENCH_BLOCKS_MAX) {
+        fprintf(stderr, "%s: not written: it holds %d machines already; remove one that is not needed\n", path,
+                BENCH_BLOCKS_MAX);
+        return false;
+    }
+    if (block == NULL) {
+        block = &reference.blocks[reference.n_blocks++];
+        memset(block, 0, sizeof *block);
+        snprintf(block->machine, sizeof block->machine, "%s", machine);
+    }
+    bench_add_rows(block, measured);
+    return bench_replace_file(path, &reference);
 }
 
 #endif
