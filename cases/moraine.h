@@ -391,12 +391,13 @@ mor_status mor_session_sweep(mor_session *session, const char *path, const char 
  *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless the case is built and neither settled nor resumed; MOR_ERROR_MEMORY. */
 mor_status mor_session_print_check(mor_session *session);
 
-/** Prints what a run would do: sizes, clocks, memory, time, warnings, stages. Takes a few steps to measure the speed;
- *  the case is to be built anew afterwards, but for MOR_ERROR_ARGUMENT.
+/** Prints what a run would do: sizes, clocks, memory, time, warnings. Takes a few steps to measure the speed; the case
+ *  is to be built anew afterwards, but for MOR_ERROR_ARGUMENT.
+ *  @param has_stages [in]  print the stages of a step, too, with what each reads and writes
  *  Returns: MOR_OK, also when one of these steps breaks down, which is printed; MOR_ERROR_ARGUMENT unless the case is
  *  built and neither settled nor resumed; MOR_ERROR_PLUGIN when a law breaks its contract, in a checked build;
  *  MOR_ERROR_MEMORY. */
-mor_status mor_session_explain(mor_session *session);
+mor_status mor_session_explain(mor_session *session, bool has_stages);
 
 /** Returns the name of a list, a static string; NULL behind the last one.
  *  @param index [in]  >= 0 */

@@ -69,34 +69,31 @@ INLINE int any_less(vec a, real b)
 #endif
 }
 
+/** One number for each of LANES particles. */
+typedef real particles_vec __attribute__((vector_size(LANES * sizeof(real))));
+
+/** Returns the numbers of particles, any unit, in all of their lanes. */
+INLINE vec in_lanes(particles_vec a)
+{
 #if TARGETS == 2
-/** Returns eight numbers, any unit, each in both lanes of its particle. */
-INLINE vec in_both_lanes(__m256 a)
-{
     const __m512i particles = _mm512_set_epi32(7, 7, 6, 6, 5, 5, 4, 4, 3, 3, 2, 2, 1, 1, 0, 0);
-    return (vec)_mm512_permutexvar_ps(particles, _mm512_castps256_ps512(a));
-}
-
-/** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
-INLINE vec load(const real *records, int stride, int component)
-{
-    __m256 a;
-    for (int lane = 0; lane < LANES; ++lane) {
-        a[lane] = records[lane * stride + component];
-    }
-    return in_both_lanes(a);
-}
+    return (vec)_mm512_permutexvar_ps(particles, _mm512_castps256_ps512((__m256)a));
 #else
+    return a;
+#endif
+}
+
 /** Returns one component of consecutive records, shape [LANES, stride]; any unit. */
 INLINE vec load(const real *records, int stride, int component)
 {
-    vec a;
+    particles_vec a;
     for (int lane = 0; lane < LANES; ++lane) {
         a[lane] = records[lane * stride + component];
     }
-    return a;
+    return in_lanes(a);
 }
 
+#if TARGETS == 1
 /** Writes the first n_lanes lanes to one component of records, shape [n_lanes, stride]; any unit. */
 INLINE void store(real *out, int stride, int component, int n_lanes, vec a)
 {

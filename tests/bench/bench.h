@@ -22,6 +22,7 @@ typedef struct bench {
     bool is_writing;           /* rows go into the reference file */
     const char *table_path;    /* rows are added to this file too, zero-terminated; NULL: no */
     char machine[BENCH_LINE];  /* as bench_describe_machine */
+    bool is_named;             /* whether that tells it from others */
     bench_reference reference; /* as read */
     bench_block *block;        /* of this machine; NULL: nothing to compare with */
     bench_table measured;      /* rows timed so far */
@@ -160,7 +161,7 @@ static inline void bench_find_reference(bench *it, const char *path)
     if (!bench_reference_read(path, &it->reference)) {
         return;
     }
-    it->block = bench_find_block(&it->reference, it->machine);
+    it->block = it->is_named ? bench_find_block(&it->reference, it->machine) : NULL;
     if (it->block == NULL) {
         fprintf(stderr, "%s holds no speeds of this machine, %s; ./dev bench --write adds them\n", path, it->machine);
     }
@@ -174,7 +175,7 @@ static inline int bench_main(int argc, char **argv, const bench_program *program
 {
     static bench it;
     bench_wait_as_the_program_does(argv);
-    bench_describe_machine(it.machine);
+    it.is_named = bench_describe_machine(it.machine);
     const int code = bench_read_options(&it, program, argc, argv);
     if (code != 0) {
         return code;
@@ -189,6 +190,10 @@ static inline int bench_main(int argc, char **argv, const bench_program *program
             bench_find_reference(&it, program->reference_path);
         }
         program->run(&it, row);
+    }
+    if (it.is_writing && !it.is_named) {
+        fprintf(stderr, "%s: not written: the system does not name the processor\n", program->reference_path);
+        return 1;
     }
     const bool has_news = it.is_writing && it.measured.n_rows > 0;
     return has_news && !bench_reference_write(program->reference_path, it.machine, &it.measured) ? 1 : 0;

@@ -48,7 +48,8 @@ static const soil_row rows[] = {
 
 /* What a loop over pairs must compute in one lane for one target with the default scheme, by dimension less 2, counted
  * from the source: a fused multiply-add as two operations, a root or a division as one, what is computed again from
- * pass to pass once. A test of distance is made for all of a list, the rest for those in reach. */
+ * pass to pass once. A test of distance, its comparison not counted, is made for all of a list, the rest for those in
+ * reach. */
 typedef struct pair_work {
     const char *stage;
     int test[2];
@@ -57,7 +58,7 @@ typedef struct pair_work {
 } pair_work;
 
 static const pair_work works[] = {
-    {"momentum", {7, 9}, {121, 154}, 1, 2},
+    {"momentum", {6, 9}, {113, 146}, 1, 2},
     {"velocity gradient", {0, 0}, {38, 62}, 1, 0},
 };
 

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 /** @file
  *  The reference file of the speed benches: speeds that were measured once, to compare with, in one block for each kind
@@ -127,6 +128,17 @@ static inline const char *bench_read_row(char *line, bench_table *table)
 #define BENCH_MACHINE "# Machine: "
 #define BENCH_DATE "# Date of the last row: "
 
+/** Finds what was measured on a machine, zero-terminated; NULL when there is nothing. */
+static inline bench_block *bench_find_block(bench_reference *reference, const char *machine)
+{
+    for (int k = 0; k < reference->n_blocks; ++k) {
+        if (strcmp(reference->blocks[k].machine, machine) == 0) {
+            return &reference->blocks[k];
+        }
+    }
+    return NULL;
+}
+
 /* Reads a line into the reference; NULL, or what is wrong with it. */
 static inline const char *bench_read_line(char *line, bench_reference *reference)
 {
@@ -134,6 +146,9 @@ static inline const char *bench_read_line(char *line, bench_reference *reference
     if (strncmp(line, BENCH_MACHINE, strlen(BENCH_MACHINE)) == 0) {
         if (reference->n_blocks == BENCH_BLOCKS_MAX) {
             return "there are too many machines";
+        }
+        if (bench_find_block(reference, line + strlen(BENCH_MACHINE)) != NULL) {
+            return "a block of this machine stands above";
         }
         block = &reference->blocks[reference->n_blocks++];
         memset(block, 0, sizeof *block);
@@ -188,17 +203,6 @@ static inline bool bench_reference_read(const char *path, bench_reference *refer
     return problem == NULL;
 }
 
-/** Finds what was measured on a machine, zero-terminated; NULL when there is nothing. */
-static inline bench_block *bench_find_block(bench_reference *reference, const char *machine)
-{
-    for (int k = 0; k < reference->n_blocks; ++k) {
-        if (strcmp(reference->blocks[k].machine, machine) == 0) {
-            return &reference->blocks[k];
-        }
-    }
-    return NULL;
-}
-
 /* The value of a key of /proc/cpuinfo, zero-terminated, shape [BENCH_LINE / 2]; "unknown" when it is not there. */
 static inline void bench_read_processor(const char *key, char *value)
 {
@@ -221,8 +225,9 @@ static inline void bench_read_processor(const char *key, char *value)
 
 /** Names the kind of machine: its processor, the widest instruction set that the loops use on it, and how many cores
  *  this process may use.
- *  @param text [out]  shape [BENCH_LINE], zero-terminated */
-static inline void bench_describe_machine(char *text)
+ *  @param text [out]  shape [BENCH_LINE], zero-terminated
+ *  Returns: whether the system names the processor, without which speeds are not to be compared. */
+static inline bool bench_describe_machine(char *text)
 {
     char values[3][BENCH_LINE / 2];
     bench_read_processor("model name", values[0]);
@@ -230,6 +235,7 @@ static inline void bench_describe_machine(char *text)
     bench_read_processor("model", values[2]);
     snprintf(text, BENCH_LINE, "%.120s, family %.16s, model %.16s, %s, %d cores", values[0], values[1], values[2],
              mor_pair_select(NULL)->instruction_set, mor_parallel_cores());
+    return strcmp(values[0], "unknown") != 0;
 }
 
 static inline void bench_print_block(FILE *file, const bench_block *block)
@@ -294,13 +300,9 @@ static inline bool bench_replace_file(const char *path, const bench_reference *r
 static inline bool bench_reference_write(const char *path, const char *machine, const bench_table *measured)
 {
     static bench_reference reference;
-    FILE *old = fopen(path, "r");
     reference.n_blocks = 0;
-    if (old != NULL) {
-        fclose(old);
-        if (!bench_reference_read(path, &reference)) {
-            return false;
-        }
+    if ((access(path, F_OK) == 0 || errno != ENOENT) && !bench_reference_read(path, &reference)) {
+        return false;
     }
     bench_block *block = bench_find_block(&reference, machine);
     if (block == NULL && reference.n_blocks == BENCH_BLOCKS_MAX) {

@@ -75,6 +75,7 @@ static void a_file_that_is_not_in_order_is_refused(void **state)
         "# Machine: one\nsoil -4.5 693 - -\n",
         "# Machine: one\nsoil 4.5 693 - -\nsoil 4.5 693 - -\n",
         "# Machine: one\nsoil 4.5 693 - -",
+        "# Machine: one\nsoil 4.5 693 - -\n# Machine: two\n# Machine: one\n",
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         static bench_reference reference;
@@ -91,14 +92,21 @@ static void a_file_that_is_not_in_order_is_refused(void **state)
     }
 }
 
-static void a_machine_is_named_by_processor_instructions_and_cores(void **state)
+static void a_machine_is_named_by_instructions_and_cores_and_found_again(void **state)
 {
+    static bench_reference reference;
     char text[BENCH_LINE];
-    (void)state;
+    char end[BENCH_LINE];
+    char path[MOR_PATH_BYTES];
+    const bench_table table = table_of("soil", 2.5);
     bench_describe_machine(text);
-    assert_non_null(strstr(text, ", family "));
-    assert_non_null(strstr(text, ", model "));
-    assert_non_null(strstr(text, " cores"));
+    snprintf(end, sizeof end, ", %s, %d cores", mor_pair_select(NULL)->instruction_set, mor_parallel_cores());
+    assert_true(strlen(text) > strlen(end));
+    assert_string_equal(text + strlen(text) - strlen(end), end);
+    run_folder_file(*state, path, "new.txt");
+    assert_true(bench_reference_write(path, text, &table));
+    assert_true(bench_reference_read(path, &reference));
+    assert_true(bench_find(&bench_find_block(&reference, text)->table, "soil")->speed == 2.5);
 }
 
 int main(void)
@@ -109,7 +117,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(rows_that_are_written_leave_the_others_as_they_are, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_file_that_is_not_in_order_is_refused, run_folder_setup, run_folder_teardown),
-        cmocka_unit_test(a_machine_is_named_by_processor_instructions_and_cores),
+        cmocka_unit_test_setup_teardown(a_machine_is_named_by_instructions_and_cores_and_found_again, run_folder_setup,
+                                        run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

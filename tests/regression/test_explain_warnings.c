@@ -153,7 +153,7 @@ static void scene_that_cannot_take_a_step_is_explained(void **state)
     program_outcome outcome = program_run(folder, arguments, 0);
     program_expect_text(outcome.output, "warning: a run would stop within its first steps: particle");
     program_expect_text(outcome.output, "speeds must stay below that of sound");
-    program_expect_text(outcome.output, "Stages of a step of 'soil'");
+    program_expect_text(outcome.output, "bytes per soil particle");
     assert_null(strstr(outcome.output, "checkpoint"));
     program_clear(&outcome);
 }

@@ -119,9 +119,6 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
     case MOR_OPTION_SET:
         MOR_TRY(command->context, name_by_key(command, value));
         return add_setting(command, value);
-    case MOR_OPTION_RESUME:
-        command->is_resume = true;
-        return MOR_OK;
     case MOR_OPTION_SPACING:
         command->spacing = value;
         return MOR_OK;
@@ -159,7 +156,9 @@ static mor_status take_option(mor_command *command, mor_command_option_kind kind
     case MOR_OPTION_VALUE:
         command->value = value;
         return MOR_OK;
-    case MOR_OPTION_PLAN: /* given is all there is to know */
+    case MOR_OPTION_RESUME: /* of these, given is all there is to know */
+    case MOR_OPTION_PLAN:
+    case MOR_OPTION_STAGES:
     case MOR_OPTION_HELP:
     case MOR_OPTION_VERSION: /* answered once the whole line is read */
     case MOR_OPTION_COUNT:

@@ -34,6 +34,7 @@ typedef enum mor_command_option_kind {
     MOR_OPTION_RESUME,
     MOR_OPTION_STOP_AT,
     MOR_OPTION_PLAN,
+    MOR_OPTION_STAGES,
     MOR_OPTION_SPACING,
     MOR_OPTION_DIAMETER,
     MOR_OPTION_LENGTH,
@@ -117,16 +118,15 @@ typedef struct mor_command {
     const char *subject;                         /* case, run folder, plug-in or word; NULL when there is none */
     const char *folder;                          /* -o; NULL when there is none */
     unsigned given;                              /* mask of the options on the line, bit by mor_command_option_kind */
-    bool is_resume;
-    double stop_at;                       /* s; NaN: not asked */
-    const char *spacing;                  /* of relax, as written; NULL: not asked */
-    const char *map;                      /* of maps; NULL: not asked */
-    const char *value;                    /* of maps, as written; NULL: not asked */
-    const char *sizes[MOR_SESSION_SIZES]; /* by mor_session_size, of relax, as written; NULL: not asked */
-    const char *words[MOR_OPTION_COUNT];  /* values, as written, of options that fos reads itself; NULL: not asked */
-    char line[MOR_COMMAND_TEXT_BYTES];    /* the whole command line */
-    FILE *output;                         /* results */
-    FILE *errors;                         /* messages */
+    double stop_at;                              /* s; NaN: not asked */
+    const char *spacing;                         /* of relax, as written; NULL: not asked */
+    const char *map;                             /* of maps; NULL: not asked */
+    const char *value;                           /* of maps, as written; NULL: not asked */
+    const char *sizes[MOR_SESSION_SIZES];        /* by mor_session_size, of relax, as written; NULL: not asked */
+    const char *words[MOR_OPTION_COUNT]; /* values, as written, of options that fos reads itself; NULL: not asked */
+    char line[MOR_COMMAND_TEXT_BYTES];   /* the whole command line */
+    FILE *output;                        /* results */
+    FILE *errors;                        /* messages */
 } mor_command;
 
 /** One command. */

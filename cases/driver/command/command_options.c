@@ -26,6 +26,8 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
                             "the end of the case"},
     [MOR_OPTION_PLAN] = {"plan", '\0', NULL, MOR_WORD_NONE,
                          "read the cases of all members, print the command of each, and run nothing", "a sweep"},
+    [MOR_OPTION_STAGES] = {"stages", '\0', NULL, MOR_WORD_NONE,
+                           "print the stages of a step, too, with what each reads and writes", "they are left out"},
     [MOR_OPTION_SPACING] = {"spacing", '\0', "L", MOR_WORD_NONE, "spacing of the particles, such as 0.05 or '5 cm'",
                             "it must be given"},
     [MOR_OPTION_DIAMETER] = {"diameter", '\0', "L", MOR_WORD_NONE,

@@ -32,7 +32,8 @@ static mor_status run(mor_command *command, int *exit_code)
     mor_session_set_progress(session, command->errors, isatty(fileno(command->errors)) != 0);
     MOR_TRY(command->context, mor_session_load_file(session, command->subject));
     const char *chosen = command->folder != NULL ? command->folder : folder;
-    MOR_TRY(command->context, mor_session_run(session, chosen, command->is_resume, command->stop_at, &outcome));
+    const bool is_resume = (command->given & MOR_OPTION_BIT(RESUME)) != 0;
+    MOR_TRY(command->context, mor_session_run(session, chosen, is_resume, command->stop_at, &outcome));
     print_advice(command, chosen, outcome);
     *exit_code = codes[outcome];
     return MOR_OK;

@@ -35,7 +35,8 @@ static mor_status sweep(mor_command *command, int *exit_code)
     }
     MOR_TRY(command->context, mor_command_name_folder(command, "-sweep", folder));
     const char *chosen = command->folder != NULL ? command->folder : folder;
-    MOR_TRY(command->context, mor_session_sweep(session, command->subject, chosen, command->is_resume, &counts));
+    const bool is_resume = (command->given & MOR_OPTION_BIT(RESUME)) != 0;
+    MOR_TRY(command->context, mor_session_sweep(session, command->subject, chosen, is_resume, &counts));
     print_advice(command, &counts);
     *exit_code = choose_code(&counts);
     return MOR_OK;

@@ -366,7 +366,7 @@ static mor_status print_costs(mor_context *context, FILE *out, mor_simulation *s
     return MOR_OK;
 }
 
-static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s)
+static mor_status print_explanation(mor_context *context, FILE *out, mor_simulation *s, bool has_stages)
 {
     char *warnings = NULL;
     double seconds = NAN;
@@ -378,7 +378,7 @@ static mor_status print_explanation(mor_context *context, FILE *out, mor_simulat
     if (status == MOR_OK) {
         mor_resolution_print(&resolution, seconds, out);
     }
-    for (int k = 0; k < s->schedule.n_steppers && status == MOR_OK; ++k) {
+    for (int k = 0; has_stages && k < s->schedule.n_steppers && status == MOR_OK; ++k) {
         print_stages(out, &s->schedule.steppers[k], set_of(s, k));
     }
     if (status == MOR_OK && warnings[0] != '\0') { /* last, where they are seen */
@@ -388,11 +388,11 @@ static mor_status print_explanation(mor_context *context, FILE *out, mor_simulat
     return status;
 }
 
-mor_status mor_session_explain(mor_session *session)
+mor_status mor_session_explain(mor_session *session, bool has_stages)
 {
     MOR_SESSION_WORK(session);
     MOR_TRY(&session->context, mor_session_enter(session, MOR_SESSION_BUILT, MOR_SESSION_BUILT));
-    const mor_status status = print_explanation(&session->context, session->output, &session->simulation);
+    const mor_status status = print_explanation(&session->context, session->output, &session->simulation, has_stages);
     mor_session_clear_simulation(session); /* the steps that were timed have changed its state */
     return status;
 }

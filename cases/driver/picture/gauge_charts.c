@@ -23,6 +23,7 @@ static const struct {
     const char *name;
     mor_chart_style style;
 } curves[] = {{MOR_GAUGE_COLUMN_FILTERED, "normal force, filtered", MOR_CHART_LINE},
+              {MOR_GAUGE_COLUMN_NORMAL, "normal force, mean of each interval", MOR_CHART_LINE},
               {MOR_GAUGE_COLUMN_NORMAL_SOIL, "share of the soil, mean of each interval", MOR_CHART_LINE},
               {MOR_GAUGE_COLUMN_NORMAL_BODIES, "share of bodies, mean of each interval", MOR_CHART_LINE},
               {MOR_GAUGE_COLUMN_SHEAR, "shear force, mean of each interval", MOR_CHART_DASHED}};

@@ -7,6 +7,7 @@
 #include "core/particle/lanes.h"
 
 #include <math.h>
+#include <stddef.h>
 
 /** @file
  *  Choices between lanes, tensors in lanes, and rows of records read and written at once. Only files named *_isa.c
@@ -21,14 +22,17 @@ INLINE vec broadcast(real a)
     return a - (vec){0.0};
 }
 
-/** Writes zeros to a, shape [n], any unit. A compiler that knew of the zeros would call for a string move, which takes
- *  longer to start. */
-INLINE void set_zero(vec *a, const int n)
+/** Writes zeros to n_bytes at a, on a boundary of a register and a whole number of them. A compiler that knew of the
+ *  zeros would call for a string move, which takes longer to start. */
+INLINE void set_zero(void *a, const size_t n_bytes)
 {
-    vec zero = broadcast(0.0);
+    typedef real any_vec __attribute__((vector_size(WIDTH * sizeof(real)), may_alias));
+    any_vec zero = broadcast(0.0);
+#if defined(__SSE2__)
     __asm__("" : "+x"(zero));
-    for (int k = 0; k < n; ++k) {
-        a[k] = zero;
+#endif
+    for (size_t k = 0; k < n_bytes / sizeof zero; ++k) {
+        ((any_vec *)a)[k] = zero;
     }
 }
 
@@ -184,11 +188,7 @@ INLINE void load_first(const real *records, int stride, const int n, vec *out)
     }
     transpose_singles(rows, columns);
     for (int a = 0; a < n; ++a) {
-#if TARGETS == 2
-        out[a] = in_both_lanes(columns[a]);
-#else
-        out[a] = (vec)columns[a];
-#endif
+        out[a] = in_lanes((particles_vec)columns[a]);
     }
 #elif defined(HAS_TRANSPOSE)
     __m512d rows[8];

@@ -12,9 +12,9 @@
 
 /** @file
  *  The pair sums of updated-Lagrangian soil. Each routine walks a range of clusters: eight particles stand in the
- *  lanes of one vector and gather from one list, target by target, without branches. Beyond the kernel's support
- *  every term is exactly zero. The routines are compiled for several instruction sets; mor_pair_select takes the best
- *  the processor has.
+ *  lanes of one vector and gather from one list, target by target or two at once, without branches. Beyond the
+ *  kernel's support every term is exactly zero. The routines are compiled for several instruction sets;
+ *  mor_pair_select takes the best the processor has.
  *  Theory: Zhang et al. (2024) eqs. 15-31, with the corrections listed in docs/theory/soil.md. */
 
 /** What a pair loop reads of a particle, in one record of 16 doubles. The first eight fill one cache line. */

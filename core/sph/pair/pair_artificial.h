@@ -33,22 +33,22 @@ INLINE void add_artificial(momentum_sums *m, const pair *p, const mor_pair_const
 /** Adds the artificial stress of one turn of a chunk to the sums of the particles from first on. The power is
  *  expensive, and few pairs are under tension: an artificial stress has no tension of its own, so that those of two
  *  particles do not cancel. */
-INLINE void add_artificial_chunk(momentum_sums *sums, int64_t first, const frame *f, const geometries *chunk,
-                                 const momentum_rows *rows, int turn, const mor_pair_constants *c, const int dimension)
+INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, const momentum_rows *rows, int turn,
+                                 const mor_pair_constants *c, const int dimension)
 {
     const mor_pair_arrays *arrays = rows->arrays;
     vec own[6];
     vec size = broadcast(0.0);
     for (int a = 0; a < 6; ++a) {
-        own[a] = load(READ(artificial_stress) + first * 6, 6, a);
+        own[a] = load(READ(artificial_stress) + part->first * 6, 6, a);
         size -= magnitude(own[a]);
     }
     const bool has_own = any_less(size, 0.0);
-    for (int q = turn; q < rows_of(&rows->of); q += TURNS) {
+    for (int q = turn; q < rows_of(&rows->targets); q += TURNS) {
         real other[6 * TARGETS];
         bool has_tension = has_own;
         for (int t = 0; t < TARGETS; ++t) {
-            const int32_t j = t == 0 ? first_of_row(&rows->of, q) : last_of_row(&rows->of, q);
+            const int32_t j = t == 0 ? first_of_row(&rows->targets, q) : last_of_row(&rows->targets, q);
             const real *of_one = READ(artificial_stress) + (int64_t)j * 6;
             has_tension |= of_one[MOR_XX] != 0.0 || of_one[MOR_YY] != 0.0 || of_one[MOR_ZZ] != 0.0;
             for (int a = 0; a < 6; ++a) {
@@ -58,22 +58,21 @@ INLINE void add_artificial_chunk(momentum_sums *sums, int64_t first, const frame
         if (has_tension) {
             const geometry g = geometry_at(chunk, q, 0);
             pair p;
-            separation_at(p.r, chunk, q, f, record_row(&rows->of, q), dimension);
-            p.reach = positive_part(1.0 - g.distance * f->half_inverse_h);
-            add_artificial(sums, &p, c, g.k, own, other, dimension);
+            separation_at(p.r, chunk, q, &part->frame, record_row(&rows->targets, q), dimension);
+            p.reach = positive_part(1.0 - g.distance * part->frame.half_inverse_h);
+            add_artificial(&part->sums, &p, c, g.k, own, other, dimension);
         }
     }
 }
 
 /* Out of the many copies of the momentum loop, which would all hold them. */
-typedef void (*adder)(momentum_sums *sums, int64_t first, const frame *f, const geometries *chunk,
-                      const momentum_rows *rows, int turn, const mor_pair_constants *c);
+typedef void (*adder)(momentum_part *part, const geometries *chunk, const momentum_rows *rows, int turn,
+                      const mor_pair_constants *c);
 #define MOR_ARTIFICIAL_FUNCTION(name, dimension)                                                                       \
-    __attribute__((noinline)) static void name(momentum_sums *sums, int64_t first, const frame *f,                     \
-                                               const geometries *chunk, const momentum_rows *rows, int turn,           \
-                                               const mor_pair_constants *c)                                            \
+    __attribute__((noinline)) static void name(momentum_part *part, const geometries *chunk,                           \
+                                               const momentum_rows *rows, int turn, const mor_pair_constants *c)       \
     {                                                                                                                  \
-        add_artificial_chunk(sums, first, f, chunk, rows, turn, c, (dimension));                                       \
+        add_artificial_chunk(part, chunk, rows, turn, c, (dimension));                                                 \
     }
 MOR_ARTIFICIAL_FUNCTION(artificial_2d, 2)
 MOR_ARTIFICIAL_FUNCTION(artificial_3d, 3)

@@ -37,16 +37,13 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const record_rows
 }
 
 #if defined(MOR_SINGLE)
-/* Squared distance from which on a target is out of reach, over that of the support: rounding never leaves one out. */
-#define OUT_OF_REACH 1.000001F
-
 /* Finds the next targets of a list that any lane reaches, at most CHUNK, and keeps their separations where rows have
  * one target; moves entry on. Lists of soil that sleeps hold others, too, and how many depends on when they were built:
  * what is added up in single precision must not. */
 INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, const int32_t *near, int32_t count,
                       int32_t *entry, const frame *f, const int dimension)
 {
-    const real support2 = OUT_OF_REACH / (f->half_inverse_h * f->half_inverse_h);
+    const real support2 = near_reach2(f);
 #if TARGETS == 2
     (void)chunk;
     return find_reached(reached, f, records, near, count, entry, support2, dimension);
@@ -143,9 +140,6 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
         join_records(&rows, MOR_RECORD_SIZE);
         for (int q = 0; q < n; ++q) {
             find_geometry(&chunk, q, record_row(&rows, q), &f, dimension, 0);
-        }
-        if (n > 0) {
-            chunk.k[n - 1] = drop_repeated(chunk.k[n - 1], &rows);
         }
         for (int turn = 0; turn < TURNS; ++turn) {
             sum_chunk(sum, &chunk, &rows, &f, stress, turn, dimension);

@@ -273,47 +273,52 @@ INLINE void copy_sums(gradient_sums *to, const gradient_sums *from, const gradie
 #endif
 
 #if defined(MOR_SINGLE)
-/* Separations, weights and shares of the pairs of a chunk. */
-INLINE void find_chunk(gradient_pair *pairs, record_rows *rows, const mor_pair_arrays *arrays, const gradient *g,
-                       const frame *f, const gradient_form form)
+/* Separation, weight and share of the pair in row q of a chunk. */
+INLINE void find_row(gradient_pair *it, const record_rows *rows, int q, const mor_pair_arrays *arrays,
+                     const gradient *g, const frame *f, const gradient_form form)
 {
-    const int n = rows_of(rows);
-    for (int q = 0; q < rows->n; ++q) {
-        __builtin_prefetch(target_of(arrays, rows->near[q]));
+    real soils[2] = {0.0F};
+    if (form.several) {
+        soils[0] = of_soil_of(arrays, first_of_row(rows, q), 1)[MOR_PAIR_OF_SOIL_INDEX];
+        soils[1] = of_soil_of(arrays, last_of_row(rows, q), 1)[MOR_PAIR_OF_SOIL_INDEX];
     }
-    join_records(rows, form.pressure ? MOR_RECORD_SIZE : MOR_RECORD_STRESS);
-    for (int q = 0; q < n; ++q) {
-        real soils[2] = {0.0F};
-        if (form.several) {
-            soils[0] = of_soil_of(arrays, first_of_row(rows, q), 1)[MOR_PAIR_OF_SOIL_INDEX];
-            soils[1] = of_soil_of(arrays, last_of_row(rows, q), 1)[MOR_PAIR_OF_SOIL_INDEX];
-        }
-        find_share(pairs + q, record_row(rows, q), g, f, soils, form);
-    }
-    pairs[n - 1].k = drop_repeated(pairs[n - 1].k, rows);
+    find_share(it, record_row(rows, q), g, f, soils, form);
 }
 
-/* The sums in passes over a chunk of targets, each with the registers for itself, as in the momentum loop. */
+/* The sums of a turn of a chunk in passes, each with the registers for itself, as in the momentum loop. */
+INLINE void sum_turn(gradient_sums *sums, gradient_pair *pairs, const record_rows *rows, int turn,
+                     const mor_pair_arrays *arrays, const gradient *g, const frame *f, const gradient_form form)
+{
+    const int n = rows_of(rows);
+    for (int q = turn; q < n; q += TURNS) {
+        find_row(pairs + q, rows, q, arrays, g, f, form);
+    }
+    for (int q = turn; q < n; q += TURNS) {
+        add_gradient(sums, g, pairs + q, record_row(rows, q), f, form);
+    }
+    for (int q = turn; q < n && form.fits; q += TURNS) {
+        add_shape(sums, pairs + q, record_row(rows, q), f, form);
+    }
+}
+
 INLINE void sum_pairs(gradient_sums *sums, double (*totals)[MOR_CLUSTER], const mor_pair_arrays *arrays,
                       const gradient *g, const frame *f, const int32_t *near, int32_t count, int64_t first,
                       const gradient_form form)
 {
-    gradient_pair chunk[CHUNK / TARGETS];
+    gradient_pair chunk[ROWS];
     record_rows rows;
     rows.records = READ(records);
     for (int32_t start = 0; start < count; start += CHUNK) {
         rows.near = near + start;
         rows.n = count - start < CHUNK ? count - start : CHUNK;
-        find_chunk(chunk, &rows, arrays, g, f, form);
+        for (int q = 0; q < rows.n; ++q) {
+            __builtin_prefetch(target_of(arrays, rows.near[q]));
+        }
+        join_records(&rows, form.pressure ? MOR_RECORD_SIZE : MOR_RECORD_STRESS);
         for (int turn = 0; turn < TURNS; ++turn) {
             gradient_sums of_chunk;
-            set_zero((vec *)&of_chunk, SUMS_OF(gradient_sums));
-            for (int q = turn; q < rows_of(&rows); q += TURNS) {
-                add_gradient(&of_chunk, g, chunk + q, record_row(&rows, q), f, form);
-            }
-            for (int q = turn; q < rows_of(&rows) && form.fits; q += TURNS) {
-                add_shape(&of_chunk, chunk + q, record_row(&rows, q), f, form);
-            }
+            set_zero(&of_chunk, sizeof of_chunk);
+            sum_turn(&of_chunk, chunk, &rows, turn, arrays, g, f, form);
             copy_sums(sums, &of_chunk, form);
             add_totals(totals, sums, first % MOR_CLUSTER, form);
         }
@@ -368,8 +373,8 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
     gradient g;
     gradient_sums sums;
-    memset(&g, 0, sizeof g);
-    set_zero((vec *)&sums, SUMS_OF(gradient_sums));
+    set_zero(&g, sizeof g);
+    set_zero(&sums, sizeof sums);
     vec motion[4];
     load_first(own + MOR_RECORD_VELOCITY, MOR_RECORD_SIZE, 4, motion);
     memcpy(g.v, motion, sizeof g.v);
@@ -398,7 +403,7 @@ INLINE void gradient_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 {
 #if defined(MOR_SINGLE)
     double totals[SUMS_OF(gradient_sums)][MOR_CLUSTER] __attribute__((aligned(64)));
-    set_zero((vec *)totals, (int)(sizeof totals / sizeof(vec)));
+    set_zero(totals, sizeof totals);
     ask_for(arrays->records + cluster * MOR_CLUSTER * MOR_RECORD_SIZE,
             MOR_CLUSTER * MOR_RECORD_SIZE * (int64_t)sizeof(double), 0);
 #else

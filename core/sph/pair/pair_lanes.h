@@ -8,6 +8,7 @@
 #include "core/sph/pair/pair.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 /** @file
@@ -109,9 +110,9 @@ INLINE const real *row_from(const real *row, const int k)
 
 /* The arithmetic of a pair is a long chain of dependent operations, and a processor looks no more than some hundred
  * operations ahead. Cut into passes over a chunk of targets, each chain is short, and many pairs are under way at once.
- * CHUNK: targets in a chunk. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD: entries of a
- * list by which records are prefetched. */
-enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32 };
+ * CHUNK: targets in a chunk, ROWS: rows. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD:
+ * entries of a list by which records are prefetched. */
+enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32, ROWS = CHUNK / TARGETS };
 
 /** The geometry of a target and the lanes of a cluster. */
 typedef struct geometry {
@@ -120,25 +121,25 @@ typedef struct geometry {
     vec k;         /* (1 - q/2)^3 V, m3 (m2) */
 } geometry;
 
-/** That of a chunk, shape [CHUNK] each, units as above. Each number has an array of its own: those that a loop does not
+/** That of a chunk, shape [ROWS] each, units as above. Each number has an array of its own: those that a loop does not
  *  need take no room in the nearest cache. */
 typedef struct geometries {
-    vec distance[CHUNK], k[CHUNK];
+    vec distance[ROWS], k[ROWS];
 #if defined(MOR_SINGLE)
     struct {
         vec r[3], distance2;
-    } kept[CHUNK]; /* integers cost more to separate than these to read */
+    } kept[ROWS]; /* integers cost more to separate than these to read */
 #else
-    vec distance2[CHUNK];
+    vec distance2[ROWS];
 #endif
 } geometries;
 
-/** Returns places less places of targets, either in all of their lanes: exact where they are within the support. */
+/** Returns places of particles less those of targets, lane by lane: exact where they are within the support. */
 INLINE vec away_from(places x, vec target)
 {
 #if defined(MOR_SINGLE)
-    typedef uint32_t turns __attribute__((vector_size(WIDTH * sizeof(uint32_t)))); /* wraps around */
-    return __builtin_convertvector((mask)((turns)x - (turns)target), vec);
+    typedef uint32_t wrapping __attribute__((vector_size(WIDTH * sizeof(uint32_t))));
+    return __builtin_convertvector((mask)((wrapping)x - (wrapping)target), vec);
 #else
     return x - target;
 #endif
@@ -173,7 +174,7 @@ INLINE vec squared(const vec *r, const frame *f, const int dimension)
     return sum + f->tiny;
 }
 
-/** Returns the separation from a target, shape [3], unit m, as seen from a frame. */
+/** Returns the separation from the targets of a row, whose places come first, unit m, as seen from a frame. */
 INLINE pair pair_of(const frame *f, const real *target, const int dimension)
 {
     pair p;
@@ -212,7 +213,8 @@ INLINE void separation_at(vec *r, const geometries *g, int q, const frame *f, co
 }
 
 /** Finds the geometry of row q of a chunk, shape [MOR_RECORD_SIZE, TARGETS], units of MOR_RECORD_..., and the lanes of
- *  a frame; with_square: distance2, too. In single precision the separation is kept already, but of two targets. */
+ *  a frame; with_square: distance2, too. In single precision the separation of one target is kept already; that of two
+ *  is found and kept here. */
 INLINE void find_geometry(geometries *g, int q, const real *target, const frame *f, const int dimension,
                           const int with_square)
 {

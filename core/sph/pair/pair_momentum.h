@@ -88,28 +88,36 @@ INLINE void copy_sums(momentum_sums *to, const momentum_sums *from, const moment
 /** Adds the sums of a chunk to those in double precision, and starts them anew.
  *  @param totals [in,out]  shape [SUMS_OF(momentum_sums), 8]; units of the loop in single precision
  *  @param sums   [in,out]  one object; zero afterwards
- *  @param part   [in]      of the cluster
+ *  @param lane   [in]      first of the cluster that has a part in the sums
  *  @param form   [in]      of the copy */
-INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const int part, const momentum_form form)
+INLINE void add_totals(double (*totals)[MOR_CLUSTER], momentum_sums *sums, const int lane, const momentum_form form)
 {
     vec *of_chunk = (vec *)sums;
     for (int k = 0; k < SUMS_OF(momentum_sums); ++k) {
         if (has_sum(k, form)) {
-            add_in_double(totals[k] + part * LANES, of_chunk[k], 1.0);
+            add_in_double(totals[k] + lane, of_chunk[k], 1.0);
             of_chunk[k] = broadcast(0.0);
         }
     }
 }
 #endif
 
+/** A part of a cluster, as the momentum loop sees it. */
+typedef struct momentum_part {
+    int64_t first; /* particle */
+    frame frame;
+    momentum own;
+    momentum_sums sums;
+} momentum_part;
+
 /** The targets of a chunk, and what is read of them beside their records. */
 typedef struct momentum_rows {
-    record_rows of;
+    record_rows targets;
     const mor_pair_arrays *arrays;
 #if TARGETS == 2
-    real extra[CHUNK / TARGETS][MOR_EXTRA_SIZE * TARGETS] __attribute__((aligned(64)));
-    real strain_rate[CHUNK / TARGETS][STRAIN_SIZE * TARGETS] __attribute__((aligned(64)));
-    real of_soil[CHUNK / TARGETS][MOR_PAIR_OF_SOIL_SIZE * TARGETS];
+    real extra[ROWS][MOR_EXTRA_SIZE * TARGETS] __attribute__((aligned(64)));
+    real strain_rate[ROWS][STRAIN_SIZE * TARGETS] __attribute__((aligned(64)));
+    real of_soil[ROWS][MOR_PAIR_OF_SOIL_SIZE * TARGETS];
 #endif
 } momentum_rows;
 
@@ -117,8 +125,8 @@ typedef struct momentum_rows {
 INLINE void prepare_rows(momentum_rows *rows, const momentum_form form)
 {
     const mor_pair_arrays *arrays = rows->arrays;
-    for (int q = 0; q < rows->of.n; ++q) {
-        const int32_t j = rows->of.near[q];
+    for (int q = 0; q < rows->targets.n; ++q) {
+        const int32_t j = rows->targets.near[q];
         __builtin_prefetch(target_of(arrays, j) + MOR_RECORD_STRESS);
         if (form.extra) {
             __builtin_prefetch(extra_of(arrays, j));
@@ -130,11 +138,11 @@ INLINE void prepare_rows(momentum_rows *rows, const momentum_form form)
             __builtin_prefetch(strain_rate_of(arrays, j));
         }
     }
-    join_records(&rows->of, MOR_RECORD_SIZE);
+    join_records(&rows->targets, MOR_RECORD_SIZE);
 #if TARGETS == 2
-    for (int q = 0; q < rows_of(&rows->of); ++q) {
-        const int32_t i = first_of_row(&rows->of, q);
-        const int32_t j = last_of_row(&rows->of, q);
+    for (int q = 0; q < rows_of(&rows->targets); ++q) {
+        const int32_t i = first_of_row(&rows->targets, q);
+        const int32_t j = last_of_row(&rows->targets, q);
         if (form.extra) {
             join_targets(rows->extra[q], extra_of(arrays, i), extra_of(arrays, j), MOR_EXTRA_SIZE);
         }
@@ -159,19 +167,19 @@ INLINE void prepare_rows(momentum_rows *rows, const momentum_form form)
  *  nothing. */
 INLINE const real *extra_row(const momentum_rows *rows, int q, const momentum_form form)
 {
-    return form.extra ? ROW(extra, extra_of(rows->arrays, rows->of.near[q])) : NULL;
+    return form.extra ? ROW(extra, extra_of(rows->arrays, rows->targets.near[q])) : NULL;
 }
 
 /** Returns their strain rates, shape [6 and more, TARGETS], unit of strain_rate_of; NULL without reconstruction. */
 INLINE const real *strain_rate_row(const momentum_rows *rows, int q, const momentum_form form)
 {
-    return form.linear ? ROW(strain_rate, strain_rate_of(rows->arrays, rows->of.near[q])) : NULL;
+    return form.linear ? ROW(strain_rate, strain_rate_of(rows->arrays, rows->targets.near[q])) : NULL;
 }
 
 /** Returns what is read of their soils, shape [MOR_PAIR_OF_SOIL_SIZE, TARGETS], units of the enum; NULL: one soil. */
 INLINE const real *of_soil_row(const momentum_rows *rows, int q, const momentum_form form)
 {
-    return form.several ? ROW(of_soil, of_soil_of(rows->arrays, rows->of.near[q], 1)) : NULL;
+    return form.several ? ROW(of_soil, of_soil_of(rows->arrays, rows->targets.near[q], 1)) : NULL;
 }
 #undef ROW
 

@@ -89,7 +89,7 @@ typedef struct momentum_pair {
 
 /* That of a chunk. */
 typedef struct momentum_pairs {
-    vec extra[CHUNK], stiffness[CHUNK], kd[CHUNK], rest[CHUNK];
+    vec extra[ROWS], stiffness[ROWS], kd[ROWS], rest[ROWS];
 } momentum_pairs;
 
 INLINE void keep_pair(momentum_pairs *pairs, int q, const momentum_pair *it, const momentum_form form)
@@ -252,21 +252,13 @@ INLINE void add_pair(momentum_sums *m, const momentum_pair *it, const geometry *
     }
 }
 
-/* A part of a cluster, as the momentum loop sees it. */
-typedef struct momentum_part {
-    int64_t first; /* particle */
-    frame frame;
-    momentum own;
-    momentum_sums sums;
-} momentum_part;
-
 INLINE void start_momentum(momentum_part *part, const mor_pair_constants *c, const mor_pair_arrays *arrays,
                            int64_t first, const momentum_form form)
 {
     const real *own = READ(records) + first * MOR_RECORD_SIZE;
     momentum *m = &part->own;
-    set_zero((vec *)m, (int)(sizeof *m / sizeof(vec)));
-    set_zero((vec *)&part->sums, SUMS_OF(momentum_sums));
+    set_zero(m, sizeof *m);
+    set_zero(&part->sums, sizeof part->sums);
     part->first = first;
     part->frame = frame_of(c, own, MOR_RECORD_SIZE);
     m->closing_sign = broadcast(c->dissipation != MOR_DISSIPATION_SEPARATION ? 1.0 : 0.0);
@@ -305,8 +297,8 @@ INLINE void add_diffusions(momentum_part *part, const geometries *chunk, const m
 {
     momentum_sums sums;
     copy_sums(&sums, &part->sums, form);
-    for (int q = turn; q < rows_of(&rows->of); q += TURNS) {
-        const real *target = record_row(&rows->of, q);
+    for (int q = turn; q < rows_of(&rows->targets); q += TURNS) {
+        const real *target = record_row(&rows->targets, q);
         const momentum_pair it = pair_at(pairs, q, form);
         pair p;
         separation_at(p.r, chunk, q, &part->frame, target, form.dimension);
@@ -321,41 +313,39 @@ INLINE void find_pairs(momentum_pairs *pairs, momentum_part *part, geometries *c
                        const mor_pair_constants *c, const momentum_form form)
 {
     const frame *f = &part->frame;
-    const int n = rows_of(&rows->of);
+    const int n = rows_of(&rows->targets);
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
-        find_geometry(chunk, q, record_row(&rows->of, q), f, form.dimension, form.diffuses);
+        find_geometry(chunk, q, record_row(&rows->targets, q), f, form.dimension, form.diffuses);
     }
-    chunk->k[n - 1] = drop_repeated(chunk->k[n - 1], &rows->of);
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
         const geometry g = geometry_at(chunk, q, form.diffuses);
         momentum_pair it;
         vec r[3];
-        separation_at(r, chunk, q, f, record_row(&rows->of, q), form.dimension);
-        find_extra(&it, &g, r, record_row(&rows->of, q), &part->own, f, c, strain_rate_row(rows, q, form),
+        separation_at(r, chunk, q, f, record_row(&rows->targets, q), form.dimension);
+        find_extra(&it, &g, r, record_row(&rows->targets, q), &part->own, f, c, strain_rate_row(rows, q, form),
                    of_soil_row(rows, q, form), extra_row(rows, q, form), form);
         keep_pair(pairs, q, &it, form);
     }
     compiler_barrier(part);
 }
 
-/* Adds the pairs of a chunk; in single precision to totals, shape [SUMS_OF(momentum_sums), 8].
- *  number: of the part */
-INLINE void add_chunk(momentum_part *part, int number, geometries *chunk, const momentum_rows *rows,
-                      double (*totals)[MOR_CLUSTER], const mor_pair_constants *c, const momentum_form form)
+/* Adds the pairs of a chunk; in single precision to totals, shape [SUMS_OF(momentum_sums), 8]. */
+INLINE void add_chunk(momentum_part *part, geometries *chunk, const momentum_rows *rows, double (*totals)[MOR_CLUSTER],
+                      const mor_pair_constants *c, const momentum_form form)
 {
     momentum_pairs pairs;
     find_pairs(&pairs, part, chunk, rows, c, form);
     for (int turn = 0; turn < TURNS; ++turn) {
         momentum_sums sums;
         copy_sums(&sums, &part->sums, form);
-        for (int q = turn; q < rows_of(&rows->of); q += TURNS) {
+        for (int q = turn; q < rows_of(&rows->targets); q += TURNS) {
             const geometry g = geometry_at(chunk, q, form.diffuses);
             const momentum_pair it = pair_at(&pairs, q, form);
             vec r[3];
-            separation_at(r, chunk, q, &part->frame, record_row(&rows->of, q), form.dimension);
-            add_pair(&sums, &it, &g, r, record_row(&rows->of, q), extra_row(rows, q, form), form);
+            separation_at(r, chunk, q, &part->frame, record_row(&rows->targets, q), form.dimension);
+            add_pair(&sums, &it, &g, r, record_row(&rows->targets, q), extra_row(rows, q, form), form);
         }
         copy_sums(&part->sums, &sums, form);
         compiler_barrier(part);
@@ -363,26 +353,18 @@ INLINE void add_chunk(momentum_part *part, int number, geometries *chunk, const 
             add_diffusions(part, chunk, &pairs, rows, turn, form);
         }
         if (c->has_artificial_stress) {
-            artificial_adders[form.dimension - 2](&part->sums, part->first, &part->frame, chunk, rows, turn, c);
+            artificial_adders[form.dimension - 2](part, chunk, rows, turn, c);
         }
 #if defined(MOR_SINGLE)
-        add_totals(totals, &part->sums, number, form);
+        add_totals(totals, &part->sums, (int)(part->first % MOR_CLUSTER), form);
 #else
-        (void)totals, (void)number;
+        (void)totals;
 #endif
     }
 }
 
 /* Chunks that are kept at once: in double precision the parts of a cluster take turns. */
 enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
-
-/* Squared distance within which a target is listed as near: slightly wider than the support, so that rounding omits no
- * pair within it. */
-INLINE real near_reach2(const frame *f)
-{
-    const real margin = sizeof(real) == sizeof(float) ? (real)0x1p-19 : (real)0x1p-40;
-    return (real)(1.0 + margin) / (f->half_inverse_h * f->half_inverse_h);
-}
 
 /* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
 #if TARGETS == 2
@@ -441,13 +423,13 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     geometries chunks[KEPT];
     momentum_rows rows;
     rows.arrays = arrays;
-    rows.of.records = READ(records);
+    rows.targets.records = READ(records);
     for (int part = 0; part < PARTS; ++part) {
         start_momentum(parts + part, c, arrays, cluster * MOR_CLUSTER + part * LANES, form);
     }
 #if defined(MOR_SINGLE)
     double totals[SUMS_OF(momentum_sums)][MOR_CLUSTER] __attribute__((aligned(64)));
-    set_zero((vec *)totals, (int)(sizeof totals / sizeof(vec)));
+    set_zero(totals, sizeof totals);
     ask_for_doubles(arrays, cluster, form);
 #else
     double(*totals)[MOR_CLUSTER] = NULL;
@@ -458,11 +440,11 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t n_near = 0;
     for (int32_t entry = 0; entry < count;) {
         const int n = find_near(parts, chunks, arrays, list, count, &entry, near + n_near, form.dimension);
-        rows.of.near = near + n_near;
-        rows.of.n = n;
+        rows.targets.near = near + n_near;
+        rows.targets.n = n;
         prepare_rows(&rows, form);
         for (int part = 0; part < PARTS && n > 0; ++part) {
-            add_chunk(parts + part, part, chunks + part % KEPT, &rows, totals, c, form);
+            add_chunk(parts + part, chunks + part % KEPT, &rows, totals, c, form);
         }
         n_near += n;
     }

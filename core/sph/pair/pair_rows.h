@@ -9,6 +9,14 @@
  *  The targets of a chunk in rows of TARGETS, and sums over them. Only files named *_isa.c include it; not for others:
  *  the names are short. */
 
+/** Returns the squared distance within which a target is listed as near, unit of lengths squared:
+ *  slightly wider than the support, so that rounding omits no pair within it. */
+INLINE real near_reach2(const frame *f)
+{
+    const real margin = sizeof(real) == sizeof(float) ? (real)0x1p-19 : (real)0x1p-40;
+    return (real)(1.0 + margin) / (f->half_inverse_h * f->half_inverse_h);
+}
+
 #if TARGETS == 2
 /* Bits of the lanes of the first. */
 #define FIRST_TARGET 0x5555
@@ -66,9 +74,7 @@ INLINE void separate_two(vec *r, const frame *f, const real *a, const real *b, c
         r[k] = away_from(f->x[k], (vec)_mm512_mask_broadcastss_ps(first, 0xaaaa, _mm_load_ss(b + k)));
     }
 }
-#endif
 
-#if TARGETS == 2
 /* Bits of the lanes in which targets i and j are nearer than the square root of reach2. */
 INLINE int lanes_reached(const frame *f, const real *records, int32_t i, int32_t j, real reach2, const int dimension)
 {
@@ -115,13 +121,18 @@ INLINE int find_reached(int32_t *reached, const frame *f, const real *records, c
 }
 #endif
 
+/* Rows are joined eight numbers at a time. */
+_Static_assert(CHUNK % TARGETS == 0 && MOR_RECORD_SIZE % 8 == 0 && MOR_RECORD_STRESS % 8 == 0 &&
+                   MOR_EXTRA_SIZE % 8 == 0 && MOR_PAIR_SINGLE_STRAIN % 8 == 0,
+               "sizes of what is joined");
+
 /** The targets of a chunk. */
 typedef struct record_rows {
     const real *records; /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
     const int32_t *near; /* shape [n]; the targets */
     int n;               /* of them, 1 <= n <= CHUNK */
 #if TARGETS == 2
-    real joined[CHUNK / TARGETS][MOR_RECORD_SIZE * TARGETS] __attribute__((aligned(64)));
+    real joined[ROWS][MOR_RECORD_SIZE * TARGETS] __attribute__((aligned(64)));
 #endif
 } record_rows;
 
@@ -144,7 +155,8 @@ INLINE int32_t last_of_row(const record_rows *rows, int q)
     return rows->near[last < rows->n ? last : TARGETS * q];
 }
 
-/** Joins the first n numbers of the records, a multiple of 8, of the targets of a chunk. */
+/** Joins the first n numbers of the records, a multiple of 8, of the targets of a chunk. A target that the last row has
+ *  twice has no volume the second time. */
 INLINE void join_records(record_rows *rows, const int n)
 {
 #if TARGETS == 2
@@ -152,6 +164,9 @@ INLINE void join_records(record_rows *rows, const int n)
         const real *a = rows->records + (int64_t)first_of_row(rows, q) * MOR_RECORD_SIZE;
         const real *b = rows->records + (int64_t)last_of_row(rows, q) * MOR_RECORD_SIZE;
         join_targets(rows->joined[q], a, b, n);
+    }
+    if (rows->n % TARGETS != 0) {
+        rows->joined[rows->n / TARGETS][TARGETS * MOR_RECORD_VOLUME + 1] = 0.0F;
     }
 #else
     (void)rows, (void)n;
@@ -166,17 +181,6 @@ INLINE const real *record_row(const record_rows *rows, int q)
     return rows->joined[q];
 #else
     return rows->records + (int64_t)rows->near[q] * MOR_RECORD_SIZE;
-#endif
-}
-
-/** Returns the weights of the last row of a chunk, any unit, without those of a target that it has twice. */
-INLINE vec drop_repeated(vec weights, const record_rows *rows)
-{
-#if TARGETS == 2
-    return rows->n % TARGETS == 0 ? weights : (vec)_mm512_maskz_mov_ps(FIRST_TARGET, (__m512)weights);
-#else
-    (void)rows;
-    return weights;
 #endif
 }
 

@@ -24,7 +24,7 @@ typedef struct copied {
 typedef struct packing {
     copied list[N_ARRAYS];
     double per_unit, per_volume_unit; /* powers of two: products with them are exact */
-    int64_t n; /* particles */
+    int64_t n;                        /* particles */
 } packing;
 
 static packing open_packing(const mor_pair_constants *constants, mor_pair_singles *singles, mor_pair_arrays *arrays)

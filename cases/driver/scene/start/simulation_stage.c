@@ -7,6 +7,7 @@
 #include "core/geometry/shape_analytic.h"
 #include "core/material/composite.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -154,6 +155,25 @@ static mor_status check_domain(mor_context *context, const mor_taken_soil *taken
     return MOR_OK;
 }
 
+/* Says how many of the particles of a region are taken over, and where others stay behind, why. */
+static void log_sources(mor_context *context, const mor_taken_soil *taken, int soil, int64_t n_of_region,
+                        int64_t n_excavated)
+{
+    const mor_case *c = taken->the_case;
+    const int64_t n_in_bodies = n_of_region - n_excavated - taken->count[soil];
+    char excavated[64] = "";
+    char in_bodies[64] = "";
+    if (n_excavated > 0) {
+        snprintf(excavated, sizeof excavated, "; %lld are excavated", (long long)n_excavated);
+    }
+    if (n_in_bodies > 0) {
+        snprintf(in_bodies, sizeof in_bodies, "; %lld lie where new bodies are", (long long)n_in_bodies);
+    }
+    mor_context_log(context, MOR_LOG_INFO, "soil '%s': %lld of %lld particles taken over from '%s'%s%s",
+                    c->soils[soil].name, (long long)taken->count[soil], (long long)n_of_region, c->stage.run, excavated,
+                    in_bodies);
+}
+
 /* Lists the particles of a region that are taken over, and says how many are not. */
 static mor_status list_sources(mor_context *context, mor_taken_soil *taken, int soil)
 {
@@ -178,11 +198,7 @@ static mor_status list_sources(mor_context *context, mor_taken_soil *taken, int 
               "bodies; allowed: at least one; remove the soil from the case, or make the excavations smaller",
               c->soils[soil].place.file, c->soils[soil].place.line, c->soils[soil].name, (long long)n_of_region,
               c->stage.run);
-    mor_context_log(context, MOR_LOG_INFO,
-                    "soil '%s': %lld of %lld particles taken over from '%s'; %lld are excavated, %lld where new bodies "
-                    "are",
-                    c->soils[soil].name, (long long)n, (long long)n_of_region, c->stage.run, (long long)n_excavated,
-                    (long long)(n_of_region - n_excavated - n));
+    log_sources(context, taken, soil, n_of_region, n_excavated);
     return MOR_OK;
 }
 

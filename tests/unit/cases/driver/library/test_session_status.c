@@ -327,14 +327,14 @@ static void reports_are_of_a_case_that_is_built(void **state)
     run_folder *folder = *state;
     mor_session *session = session_load(folder);
     session_expect(session, mor_session_print_check(session), MOR_ERROR_ARGUMENT, "call mor_session_build first");
-    session_expect(session, mor_session_explain(session), MOR_ERROR_ARGUMENT, "call mor_session_build first");
+    session_expect(session, mor_session_explain(session, true), MOR_ERROR_ARGUMENT, "call mor_session_build first");
     session_expect(session, mor_session_build(session), MOR_OK, "");
     session_expect(session, mor_session_print_check(session), MOR_OK, "");
-    session_expect(session, mor_session_explain(session), MOR_OK, "");
+    session_expect(session, mor_session_explain(session, true), MOR_OK, "");
     session_expect(session, mor_session_settle(session), MOR_ERROR_ARGUMENT, "call mor_session_build first");
     session_make_ready(session);
     session_expect(session, mor_session_print_check(session), MOR_ERROR_ARGUMENT, "under way");
-    session_expect(session, mor_session_explain(session), MOR_ERROR_ARGUMENT, "under way");
+    session_expect(session, mor_session_explain(session, true), MOR_ERROR_ARGUMENT, "under way");
     session_expect(session, mor_session_preview(session, "there"), MOR_ERROR_ARGUMENT, "under way");
     mor_session_free(&session);
 }
@@ -428,7 +428,7 @@ static void a_case_without_a_first_step_is_explained(void **state)
     load_again(folder, session);
     session_expect(session, mor_session_build(session), MOR_OK, "");
     mor_session_set_output(session, stream);
-    session_expect(session, mor_session_explain(session), MOR_OK, "");
+    session_expect(session, mor_session_explain(session, true), MOR_OK, "");
     fclose(stream);
     assert_non_null(strstr(text, "contact stiffness"));
     assert_non_null(strstr(text, "warning: a run would stop within its first steps: the time step collapsed"));
