@@ -27,13 +27,16 @@ static void join_words(const char *const *words, int n_words, char *text, size_t
     }
 }
 
+/* The advice where no word is near. */
+static const char no_nearest[] = "use one of these";
+
 static void advise_word(const char *word, const char *const *words, int n_words, char *text, size_t text_bytes)
 {
     const int nearest = mor_nearest_find(word, words, n_words);
     if (nearest >= 0) {
         snprintf(text, text_bytes, "did you mean '%s'?", words[nearest]);
     } else {
-        snprintf(text, text_bytes, "use one of these");
+        snprintf(text, text_bytes, "%s", no_nearest);
     }
 }
 
@@ -80,6 +83,22 @@ static bool is_former(const char *word, const mor_case_group *group)
     return false;
 }
 
+/* Keeps the mistake that the last error is about, and forgets that error. */
+static void keep_mistake(const mor_case_reader *reader, const mor_case_node *node, const char *path, const char *advice)
+{
+    mor_case_mistakes *mistakes = reader->mistakes;
+    if (mistakes->n++ == 0) {
+        mistakes->first = *reader->context;
+    } else {
+        char place[MOR_CASE_NODE_TEXT_BYTES];
+        const size_t used = strlen(mistakes->others);
+        mor_case_node_place(node, place, sizeof place);
+        snprintf(mistakes->others + used, sizeof mistakes->others - used, "\n%s: found '%.80s' in %s, unknown, too; %s",
+                 place, node->name, path, strcmp(advice, no_nearest) == 0 ? "'list keys' tells what there is" : advice);
+    }
+    mor_context_clear_error(reader->context);
+}
+
 mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
                                  const char *extra, const mor_schema *more)
 {
@@ -99,10 +118,31 @@ mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_n
         if (entry >= 0) {
             snprintf(advice, sizeof advice, "did you mean '%s'?", more[entry].key);
         }
-        return MOR_CASE_NODE_FAIL(reader->context, child, "found the unknown name '%.80s' in %s; allowed: %s; %s",
-                                  child->name, path, allowed, advice);
+        const mor_status status =
+            MOR_CASE_NODE_FAIL(reader->context, child, "found the unknown name '%.80s' in %s; allowed: %s; %s",
+                               child->name, path, allowed, advice);
+        if (reader->mistakes == NULL) {
+            return status;
+        }
+        keep_mistake(reader, child, path, advice);
     }
     return MOR_OK;
+}
+
+mor_status mor_case_reader_finish(const mor_case_reader *reader, mor_status status)
+{
+    const mor_case_mistakes *mistakes = reader->mistakes;
+    char last[MOR_CONTEXT_MESSAGE_BYTES] = "";
+    if (mistakes == NULL || mistakes->n == 0) {
+        return status;
+    }
+    if (status != MOR_OK) {
+        snprintf(last, sizeof last, "\n%.*s", (int)(sizeof last - 2), reader->context->message);
+    }
+    mor_context_restore_error(reader->context, &mistakes->first);
+    const size_t used = strlen(reader->context->message);
+    snprintf(reader->context->message + used, sizeof reader->context->message - used, "%s%s", mistakes->others, last);
+    return MOR_ERROR_CONFIG;
 }
 
 mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_node *node, const char *what,

@@ -11,6 +11,15 @@
  *  Values, names, shapes and files that the sections of a case are made of. Every error names the place in the file,
  *  what was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
+enum { MOR_CASE_MISTAKES_BYTES = 1024 };
+
+/** Names that no group has: they are told together, for nothing else depends on them. Zero-initialized before use. */
+typedef struct mor_case_mistakes {
+    mor_context first;                    /* the error about the first of them */
+    char others[MOR_CASE_MISTAKES_BYTES]; /* zero-terminated; a line about each of the others, a newline before each */
+    int n;
+} mor_case_mistakes;
+
 /** State shared by all parts. */
 typedef struct mor_case_reader {
     mor_context *context;
@@ -21,6 +30,7 @@ typedef struct mor_case_reader {
     int scheme;                         /* index of the word of numerics.scheme */
     double spacing;                     /* m; 0 before it is read */
     mor_bounds domain;                  /* m; empty before it is read */
+    mor_case_mistakes *mistakes;        /* NULL: the first ends the reading */
     double spread;                      /* largest over smallest size of what a shape is used for, 1; 0: of one size */
     int length_power;                   /* the scale of the case as powers of two */
     int time_power;
@@ -50,13 +60,18 @@ mor_status mor_case_reader_scale(const mor_case_reader *reader, const char *unit
 mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
                                  void *record);
 
-/** Refuses names that a group does not have.
+/** Refuses names that a group does not have, or keeps them in the mistakes of the reader.
  *  @param node   [in]  NULL is accepted
  *  @param extra  [in]  zero-terminated name allowed besides; NULL: none
  *  @param more   [in]  table ended by key NULL of keys allowed besides; NULL: none
  *  Returns: MOR_OK; MOR_ERROR_CONFIG with the nearest name. */
 mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_node *node, const mor_case_group *group,
                                  const char *extra, const mor_schema *more);
+
+/** Makes one error of the mistakes of a reader and of what ended its reading.
+ *  @param status [in]  of the reading
+ *  Returns: status when there are no mistakes; MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_finish(const mor_case_reader *reader, mor_status status);
 
 /** Finds a member that must exist and be of a kind.
  *  @param name   [in]   zero-terminated

@@ -202,8 +202,6 @@ static mor_status read_root(mor_case_reader *reader, const mor_case_node *root, 
     return mor_case_reader_periodic(reader, root, the_case);
 }
 
-/* ---- The whole --------------------------------------------------------------------------------------------------- */
-
 static mor_status read_file(mor_context *context, mor_case_file *file, const mor_case_text *text, mor_case *out_case)
 {
     for (int k = 0; k < text->n_settings; ++k) {
@@ -213,12 +211,14 @@ static mor_status read_file(mor_context *context, mor_case_file *file, const mor
     if (text->units == NULL) {
         MOR_TRY(context, mor_units_new(context, &loaded));
     }
+    mor_case_mistakes mistakes = {.n = 0};
     mor_case_reader reader = {.context = context,
+                              .mistakes = &mistakes,
                               .units = text->units == NULL ? loaded : text->units,
                               .registry = text->registry,
                               .probe_types = text->probe_types};
     out_case->probe_types = text->probe_types;
-    const mor_status status = read_root(&reader, mor_case_file_root(file), out_case);
+    const mor_status status = mor_case_reader_finish(&reader, read_root(&reader, mor_case_file_root(file), out_case));
     mor_units_free(context, &loaded);
     if (status != MOR_OK) {
         mor_case_clear(context, out_case);

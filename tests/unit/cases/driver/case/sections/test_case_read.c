@@ -271,6 +271,26 @@ static void what_belongs_together_is_demanded_together(void **state)
     }
 }
 
+/* All of them, each with its place; what ends the reading comes last. */
+static void names_that_are_unknown_are_told_together(void **state)
+{
+    case_reading *f = *state;
+    const char *settings[] = {"numerics.corant=0.4", "output.snapshts=3", "walls[1].colour=red", NULL, NULL};
+    static const char *const parts[] = {
+        "found the unknown name 'corant' in numerics; allowed: ",
+        "\noverride 'output.snapshts=3': found 'snapshts' in output, unknown, too; did "
+        "you mean 'snapshots'?",
+        "\noverride 'walls[1].colour=red': found 'colour' in walls[1], unknown, too; 'list "
+        "keys' tells what there is"};
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; ++k) {
+        case_reading_refuse(f, full_text, settings, "override 'numerics.corant=0.4'", parts[k]);
+    }
+    settings[3] = "walls[1].name=5";
+    case_reading_refuse(f, full_text, settings, "override 'numerics.corant=0.4'", parts[2]);
+    case_reading_refuse(f, full_text, settings, "override 'numerics.corant=0.4'",
+                        "\noverride 'walls[1].name=5': found walls[1].name = 5, which is no text");
+}
+
 static void a_cut_case_is_refused_or_whole_but_never_half_kept(void **state)
 {
     case_reading *f = *state;
@@ -398,6 +418,7 @@ int main(void)
         cmocka_unit_test(settings_of_the_command_line_win),
         cmocka_unit_test(the_unit_of_an_energy_depends_on_the_dimension),
         cmocka_unit_test(what_belongs_together_is_demanded_together),
+        cmocka_unit_test(names_that_are_unknown_are_told_together),
         cmocka_unit_test(a_cut_case_is_refused_or_whole_but_never_half_kept),
         cmocka_unit_test(the_scale_multiplies_every_dimensional_value_exactly),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
