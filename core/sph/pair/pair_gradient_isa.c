@@ -308,11 +308,14 @@ INLINE void sum_pairs(gradient_sums *sums, double (*totals)[MOR_CLUSTER], const 
     gradient_pair chunk[ROWS];
     record_rows rows;
     rows.records = READ(records);
+    for (int32_t q = 0; q < count && q < CHUNK; ++q) {
+        __builtin_prefetch(target_of(arrays, near[q]));
+    }
     for (int32_t start = 0; start < count; start += CHUNK) {
         rows.near = near + start;
         rows.n = count - start < CHUNK ? count - start : CHUNK;
-        for (int q = 0; q < rows.n; ++q) {
-            __builtin_prefetch(target_of(arrays, rows.near[q]));
+        for (int32_t q = start + CHUNK; q < count && q < start + 2 * CHUNK; ++q) {
+            __builtin_prefetch(target_of(arrays, near[q]));
         }
         join_records(&rows, form.pressure ? MOR_RECORD_SIZE : MOR_RECORD_STRESS);
         for (int turn = 0; turn < TURNS; ++turn) {

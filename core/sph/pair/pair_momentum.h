@@ -121,25 +121,30 @@ typedef struct momentum_rows {
 #endif
 } momentum_rows;
 
-/** Prefetches what is read of the targets after their positions, and joins them in rows. */
+/** Prefetches what is read of a target in reach after its position. */
+INLINE void prefetch_rest(const mor_pair_arrays *arrays, int32_t j, const momentum_form form)
+{
+    __builtin_prefetch(target_of(arrays, j) + MOR_RECORD_STRESS);
+    if (form.extra) {
+        __builtin_prefetch(extra_of(arrays, j));
+    }
+    if (form.extra && form.diffuses) {
+        __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
+    }
+    if (form.linear) {
+        __builtin_prefetch(strain_rate_of(arrays, j));
+    }
+}
+
+/** Joins two targets each in rows. */
 INLINE void prepare_rows(momentum_rows *rows, const momentum_form form)
 {
+#if TARGETS == 2
     const mor_pair_arrays *arrays = rows->arrays;
     for (int q = 0; q < rows->targets.n; ++q) {
-        const int32_t j = rows->targets.near[q];
-        __builtin_prefetch(target_of(arrays, j) + MOR_RECORD_STRESS);
-        if (form.extra) {
-            __builtin_prefetch(extra_of(arrays, j));
-        }
-        if (form.extra && form.diffuses) {
-            __builtin_prefetch(extra_of(arrays, j) + MOR_EXTRA_FLOW);
-        }
-        if (form.linear) {
-            __builtin_prefetch(strain_rate_of(arrays, j));
-        }
+        prefetch_rest(arrays, rows->targets.near[q], form);
     }
     join_records(&rows->targets, MOR_RECORD_SIZE);
-#if TARGETS == 2
     for (int q = 0; q < rows_of(&rows->targets); ++q) {
         const int32_t i = first_of_row(&rows->targets, q);
         const int32_t j = last_of_row(&rows->targets, q);
@@ -154,6 +159,8 @@ INLINE void prepare_rows(momentum_rows *rows, const momentum_form form)
             rows->of_soil[q][2 * k + 1] = of_soil_of(arrays, j, form.several)[k];
         }
     }
+#else
+    (void)rows, (void)form;
 #endif
 }
 

@@ -316,6 +316,9 @@ INLINE void find_pairs(momentum_pairs *pairs, momentum_part *part, geometries *c
     const int n = rows_of(&rows->targets);
     compiler_barrier(part);
     for (int q = 0; q < n; ++q) {
+        if (TARGETS == 1) {
+            prefetch_rest(rows->arrays, rows->targets.near[q], form);
+        }
         find_geometry(chunk, q, record_row(&rows->targets, q), f, form.dimension, form.diffuses);
     }
     compiler_barrier(part);
