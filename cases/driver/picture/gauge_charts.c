@@ -22,11 +22,12 @@ static const struct {
     int column;
     const char *name;
     mor_chart_style style;
-} curves[] = {{MOR_GAUGE_COLUMN_FILTERED, "normal force, filtered", MOR_CHART_LINE},
-              {MOR_GAUGE_COLUMN_NORMAL, "normal force, mean of each interval", MOR_CHART_LINE},
-              {MOR_GAUGE_COLUMN_NORMAL_SOIL, "share of the soil, mean of each interval", MOR_CHART_LINE},
-              {MOR_GAUGE_COLUMN_NORMAL_BODIES, "share of bodies, mean of each interval", MOR_CHART_LINE},
-              {MOR_GAUGE_COLUMN_SHEAR, "shear force, mean of each interval", MOR_CHART_DASHED}};
+} curves[] = {
+    {MOR_GAUGE_COLUMN_FILTERED, "normal force, filtered", MOR_CHART_LINE},
+    {MOR_GAUGE_COLUMN_NORMAL_SOIL, "share of the soil, mean of each interval", MOR_CHART_LINE},
+    {MOR_GAUGE_COLUMN_NORMAL_BODIES, "share of bodies, mean of each interval", MOR_CHART_LINE},
+    {MOR_GAUGE_COLUMN_NORMAL, "normal force, mean of each interval", MOR_CHART_DASHED}, /* over equal shares */
+    {MOR_GAUGE_COLUMN_SHEAR, "shear force, mean of each interval", MOR_CHART_DASHED}};
 
 enum { CURVES = sizeof curves / sizeof *curves };
 

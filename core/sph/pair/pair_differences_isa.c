@@ -36,47 +36,25 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const record_rows
     }
 }
 
+/* The next targets of a list, at most CHUNK. Lists of soil that sleeps hold some out of reach, too, and how many
+ * depends on when they were built: what is added up in single precision must not. In double precision zeros change no
+ * sum. */
+INLINE int find_chunk(geometries *chunk, int32_t *reached, target_list *list, const frame *f, const int dimension)
+{
 #if defined(MOR_SINGLE)
-/* Finds the next targets of a list that any lane reaches, at most CHUNK, and keeps their separations where rows have
- * one target; moves entry on. Lists of soil that sleeps hold others, too, and how many depends on when they were built:
- * what is added up in single precision must not. */
-INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, const int32_t *near, int32_t count,
-                      int32_t *entry, const frame *f, const int dimension)
-{
-    const real support2 = near_reach2(f);
-#if TARGETS == 2
-    (void)chunk;
-    return find_reached(reached, f, records, near, count, entry, support2, dimension);
+    return find_reached(reached, list, f, 1, chunk, dimension);
 #else
-    int n = 0;
-    for (; *entry < count && n < CHUNK; ++*entry) {
-        const int32_t later = *entry + AHEAD < count ? near[*entry + AHEAD] : near[*entry];
-        vec r[3];
-        __builtin_prefetch(records + (int64_t)later * MOR_RECORD_SIZE);
-        separate(r, f, records + (int64_t)near[*entry] * MOR_RECORD_SIZE, dimension);
-        const vec distance2 = squared(r, f, dimension);
-        keep_separation(chunk, n, r, distance2, dimension);
-        reached[n] = near[*entry];
-        n += any_less(distance2, support2) != 0;
-    }
-    return n;
-#endif
-}
-#else
-/* The next targets of a list, at most CHUNK: zeros change no sum. */
-INLINE int find_chunk(geometries *chunk, int32_t *reached, const real *records, const int32_t *near, int32_t count,
-                      int32_t *entry, const frame *f, const int dimension)
-{
     (void)chunk, (void)f, (void)dimension;
     int n = 0;
-    for (; *entry < count && n < CHUNK; ++*entry) {
-        const int32_t later = *entry + AHEAD < count ? near[*entry + AHEAD] : near[*entry];
-        ask_for(records + (int64_t)later * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof *records, 0);
-        reached[n++] = near[*entry];
+    for (; list->entry < list->count && n < CHUNK; ++list->entry) {
+        const int32_t k = list->entry;
+        const int32_t later = list->targets[k + AHEAD < list->count ? k + AHEAD : k];
+        ask_for(list->records + (int64_t)later * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof(real), 0);
+        reached[n++] = list->targets[k];
     }
     return n;
-}
 #endif
+}
 
 /* Adds the sums over the particles of a part, shape [MOR_PAIR_DIFFERENCES], to those in double precision; in single
  * precision they start anew.
@@ -121,8 +99,7 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
 #endif
     const real *own = records + (cluster * MOR_CLUSTER + (int64_t)part * LANES) * MOR_RECORD_SIZE;
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    const int32_t *near = mor_relation_near(job->inner, cluster);
-    const int32_t count = job->inner->near_counts[cluster];
+    target_list list = {records, mor_relation_near(job->inner, cluster), job->inner->near_counts[cluster], 0};
     vec stress[6];
     vec sum[MOR_PAIR_DIFFERENCES];
     for (int a = 0; a < 6; ++a) {
@@ -134,8 +111,8 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
     record_rows rows;
     rows.records = records;
     rows.near = reached;
-    for (int32_t entry = 0; entry < count;) {
-        rows.n = find_chunk(&chunk, reached, records, near, count, &entry, &f, dimension);
+    while (list.entry < list.count) {
+        rows.n = find_chunk(&chunk, reached, &list, &f, dimension);
         const int n = rows_of(&rows);
         join_records(&rows, MOR_RECORD_SIZE);
         for (int q = 0; q < n; ++q) {

@@ -369,44 +369,6 @@ INLINE void add_chunk(momentum_part *part, geometries *chunk, const momentum_row
 /* Chunks that are kept at once: in double precision the parts of a cluster take turns. */
 enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
 
-/* Which of a list are in reach of any part of the cluster, until there are as many as a chunk holds. */
-#if TARGETS == 2
-INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
-                     int32_t count, int32_t *entry, int32_t *near, const int dimension)
-{
-    const frame f = parts[0].frame;
-    (void)chunks;
-    return find_reached(near, &f, READ(records), list, count, entry, near_reach2(&f), dimension);
-}
-#else
-INLINE int find_near(const momentum_part *parts, geometries *chunks, const mor_pair_arrays *arrays, const int32_t *list,
-                     int32_t count, int32_t *entry, int32_t *near, const int dimension)
-{
-    frame frames[PARTS]; /* stay in registers, for nobody else sees them */
-    for (int part = 0; part < PARTS; ++part) {
-        frames[part] = parts[part].frame;
-    }
-    const real reach2 = near_reach2(frames);
-    int32_t k = *entry;
-    int n = 0;
-    for (; k < count && n < CHUNK; ++k) {
-        __builtin_prefetch(target_of(arrays, list[k + AHEAD < count ? k + AHEAD : k]));
-        int any = 0;
-        for (int part = 0; part < PARTS; ++part) {
-            vec r[3];
-            separate(r, &frames[part], target_of(arrays, list[k]), dimension);
-            const vec distance2 = squared(r, &frames[part], dimension);
-            keep_separation(chunks + part % KEPT, n, r, distance2, dimension);
-            any |= any_less(distance2, reach2);
-        }
-        near[n] = list[k];
-        n += any != 0;
-    }
-    *entry = k;
-    return n;
-}
-#endif
-
 #if defined(MOR_SINGLE)
 /* Prefetches what is read of a cluster in double precision once the sums are known. */
 INLINE void ask_for_doubles(const mor_pair_arrays *arrays, int64_t cluster, const momentum_form form)
@@ -437,12 +399,15 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 #else
     double(*totals)[MOR_CLUSTER] = NULL;
 #endif
-    const int32_t *list = arrays->inner->lists[cluster];
-    const int32_t count = arrays->inner->counts[cluster];
+    target_list list = {READ(records), arrays->inner->lists[cluster], arrays->inner->counts[cluster], 0};
+    frame frames[PARTS]; /* stay in registers, for nobody else sees them */
+    for (int part = 0; part < PARTS; ++part) {
+        frames[part] = parts[part].frame;
+    }
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
-    for (int32_t entry = 0; entry < count;) {
-        const int n = find_near(parts, chunks, arrays, list, count, &entry, near + n_near, form.dimension);
+    while (list.entry < list.count) {
+        const int n = find_reached(near + n_near, &list, frames, PARTS, chunks, form.dimension);
         rows.targets.near = near + n_near;
         rows.targets.n = n;
         prepare_rows(&rows, form);

@@ -82,44 +82,69 @@ INLINE int lanes_reached(const frame *f, const real *records, int32_t i, int32_t
     separate_two(r, f, records + (int64_t)i * MOR_RECORD_SIZE, records + (int64_t)j * MOR_RECORD_SIZE, dimension);
     return any_less(squared(r, f, dimension), reach2);
 }
+#endif
 
-/** Finds which targets of a list are within a distance of any particle, until there are as many as a chunk holds.
+/** A list of targets that is searched chunk by chunk. */
+typedef struct target_list {
+    const real *records;    /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
+    const int32_t *targets; /* shape [count] */
+    int32_t count;
+    int32_t entry; /* next of them */
+} target_list;
+
+/** Prefetches the record of a target some entries on from entry k of a list. */
+INLINE void prefetch_ahead(const target_list *it, int32_t k)
+{
+    __builtin_prefetch(it->records + (int64_t)it->targets[k + AHEAD < it->count ? k + AHEAD : k] * MOR_RECORD_SIZE);
+}
+
+/** Finds the next targets of a list that are in reach of any particle, until there are as many as a chunk holds.
  *  @param reached   [out]     shape [CHUNK]; the targets
- *  @param f         [in]      of the particles
- *  @param records   [in]      shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...
- *  @param list      [in]      shape [count]; targets
- *  @param count     [in]      of the list, 1
- *  @param entry     [in,out]  shape [1]; next of the list
- *  @param reach2    [in]      square of the distance, padded as squared is
+ *  @param it        [in,out]  one object; its entry moves on
+ *  @param frames    [in]      shape [n_frames]; of the particles; one where there are two targets
+ *  @param n_frames  [in]      1 to PARTS
+ *  @param chunks    [in,out]  shape [n_frames], in double precision [1]; keep separations from one target a row
  *  @param dimension [in]      2 or 3
  *  Returns: how many. */
-INLINE int find_reached(int32_t *reached, const frame *f, const real *records, const int32_t *list, int32_t count,
-                        int32_t *entry, real reach2, const int dimension)
+INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, const int n_frames, geometries *chunks,
+                        const int dimension)
 {
-    int32_t k = *entry;
+    const real reach2 = near_reach2(frames);
+    int32_t k = it->entry;
     int n = 0;
-    for (; k + 1 + AHEAD < count && n + 1 < CHUNK; k += 2) { /* nothing to look after: both exist, and are kept */
-        __builtin_prefetch(records + (int64_t)list[k + AHEAD] * MOR_RECORD_SIZE);
-        __builtin_prefetch(records + (int64_t)list[k + AHEAD + 1] * MOR_RECORD_SIZE);
-        const int lanes = lanes_reached(f, records, list[k], list[k + 1], reach2, dimension);
-        reached[n] = list[k];
+#if TARGETS == 2
+    (void)n_frames, (void)chunks;
+    while (k < it->count && n < CHUNK) {
+        const int32_t next = k + 1 < it->count ? k + 1 : k;
+        prefetch_ahead(it, k);
+        prefetch_ahead(it, next);
+        const int lanes = lanes_reached(frames, it->records, it->targets[k], it->targets[next], reach2, dimension);
+        reached[n] = it->targets[k++];
         n += (lanes & FIRST_TARGET) != 0;
-        reached[n] = list[k + 1];
-        n += (lanes & ~FIRST_TARGET) != 0;
-    }
-    while (k < count && n < CHUNK) {
-        const int lanes = lanes_reached(f, records, list[k], list[k + 1 < count ? k + 1 : k], reach2, dimension);
-        reached[n] = list[k++];
-        n += (lanes & FIRST_TARGET) != 0;
-        if (k < count && n < CHUNK) {
-            reached[n] = list[k++];
+        if (k < it->count && n < CHUNK) {
+            reached[n] = it->targets[k++];
             n += (lanes & ~FIRST_TARGET) != 0;
         }
     }
-    *entry = k;
+#else
+    for (; k < it->count && n < CHUNK; ++k) {
+        const real *target = it->records + (int64_t)it->targets[k] * MOR_RECORD_SIZE;
+        int any = 0;
+        prefetch_ahead(it, k);
+        for (int part = 0; part < n_frames; ++part) {
+            vec r[3];
+            separate(r, frames + part, target, dimension);
+            const vec distance2 = squared(r, frames + part, dimension);
+            keep_separation(chunks + (sizeof(real) == sizeof(float) ? part : 0), n, r, distance2, dimension);
+            any |= any_less(distance2, reach2);
+        }
+        reached[n] = it->targets[k];
+        n += any != 0;
+    }
+#endif
+    it->entry = k;
     return n;
 }
-#endif
 
 /* Rows are joined eight numbers at a time. */
 _Static_assert(CHUNK % TARGETS == 0 && MOR_RECORD_SIZE % 8 == 0 && MOR_RECORD_STRESS % 8 == 0 &&

@@ -92,9 +92,15 @@ static void keep_mistake(const mor_case_reader *reader, const mor_case_node *nod
     } else {
         char place[MOR_CASE_NODE_TEXT_BYTES];
         const size_t used = strlen(mistakes->others);
+        const size_t room = sizeof mistakes->others - used;
         mor_case_node_place(node, place, sizeof place);
-        snprintf(mistakes->others + used, sizeof mistakes->others - used, "\n%s: found '%.80s' in %s, unknown, too; %s",
-                 place, node->name, path, strcmp(advice, no_nearest) == 0 ? "'list keys' tells what there is" : advice);
+        const int n =
+            snprintf(mistakes->others + used, room, "\n%s: found '%.80s' in %s, unknown, too; %s", place, node->name,
+                     path, strcmp(advice, no_nearest) == 0 ? "'list keys' tells what there is" : advice);
+        if (n < 0 || (size_t)n >= room) {
+            mistakes->others[used] = '\0';
+            mistakes->n_untold += 1;
+        }
     }
     mor_context_clear_error(reader->context);
 }
@@ -133,15 +139,20 @@ mor_status mor_case_reader_finish(const mor_case_reader *reader, mor_status stat
 {
     const mor_case_mistakes *mistakes = reader->mistakes;
     char last[MOR_CONTEXT_MESSAGE_BYTES] = "";
+    char untold[64] = "";
     if (mistakes == NULL || mistakes->n == 0) {
         return status;
     }
     if (status != MOR_OK) {
         snprintf(last, sizeof last, "\n%.*s", (int)(sizeof last - 2), reader->context->message);
     }
+    if (mistakes->n_untold > 0) {
+        snprintf(untold, sizeof untold, "\nand %d more unknown names", mistakes->n_untold);
+    }
     mor_context_restore_error(reader->context, &mistakes->first);
     const size_t used = strlen(reader->context->message);
-    snprintf(reader->context->message + used, sizeof reader->context->message - used, "%s%s", mistakes->others, last);
+    snprintf(reader->context->message + used, sizeof reader->context->message - used, "%s%s%s", mistakes->others,
+             untold, last);
     return MOR_ERROR_CONFIG;
 }
 

@@ -11,13 +11,14 @@
  *  Values, names, shapes and files that the sections of a case are made of. Every error names the place in the file,
  *  what was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
-enum { MOR_CASE_MISTAKES_BYTES = 1024 };
+enum { MOR_CASE_MISTAKES_BYTES = 512 };
 
 /** Names that no group has: they are told together, for nothing else depends on them. Zero-initialized before use. */
 typedef struct mor_case_mistakes {
     mor_context first;                    /* the error about the first of them */
     char others[MOR_CASE_MISTAKES_BYTES]; /* zero-terminated; a line about each of the others, a newline before each */
     int n;
+    int n_untold; /* of them, for which others had no room */
 } mor_case_mistakes;
 
 /** State shared by all parts. */

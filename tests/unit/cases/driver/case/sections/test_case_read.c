@@ -291,6 +291,29 @@ static void names_that_are_unknown_are_told_together(void **state)
                         "\noverride 'walls[1].name=5': found walls[1].name = 5, which is no text");
 }
 
+/* Those for which a message has no room are counted. */
+static void many_names_that_are_unknown_are_counted(void **state)
+{
+    enum { MANY = 20 };
+    case_reading *f = *state;
+    char settings[MANY][32];
+    const char *all[MANY + 1] = {NULL};
+    for (int k = 0; k < MANY; ++k) {
+        snprintf(settings[k], sizeof settings[k], "numerics.unknown_%d=1", k);
+        all[k] = settings[k];
+    }
+    case_reading_refuse(f, full_text, all, "override 'numerics.unknown_0=1'",
+                        "\noverride 'numerics.unknown_1=1': found");
+    int n_told = 1;
+    for (const char *line = f->context.message; (line = strchr(line, '\n')) != NULL; ++line) {
+        n_told += strncmp(line, "\noverride", 9) == 0;
+    }
+    char end[64];
+    snprintf(end, sizeof end, "\nand %d more unknown names", MANY - n_told);
+    assert_true(n_told > 2 && n_told < MANY);
+    assert_non_null(strstr(f->context.message, end));
+}
+
 static void a_cut_case_is_refused_or_whole_but_never_half_kept(void **state)
 {
     case_reading *f = *state;
@@ -419,6 +442,7 @@ int main(void)
         cmocka_unit_test(the_unit_of_an_energy_depends_on_the_dimension),
         cmocka_unit_test(what_belongs_together_is_demanded_together),
         cmocka_unit_test(names_that_are_unknown_are_told_together),
+        cmocka_unit_test(many_names_that_are_unknown_are_counted),
         cmocka_unit_test(a_cut_case_is_refused_or_whole_but_never_half_kept),
         cmocka_unit_test(the_scale_multiplies_every_dimensional_value_exactly),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
