@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 /** @file
- *  A band of numbers behind an array that a law of another program gets, to see whether it writes there. For
+ *  A band of numbers behind an array that a law of another program gets, to see whether it reads or writes there. For
  *  materials/interfaces only. */
 
 enum {
@@ -14,8 +14,9 @@ enum {
     MOR_EXTERNAL_NARROW_BAND = 8 /* behind the rest: bands cost time in each call */
 };
 
-/** Fills a band with numbers that differ from each other and that no law computes: of both signs, so that a bound from
- *  either side changes them, and so small that whatever is added to them does.
+/** Fills a band with signaling not-a-numbers of IEEE 754 that differ from each other, of both signs: arithmetic with
+ *  one of them makes another number of it, so that it shows where it is written back, and a result that is not finite
+ *  where it is only read.
  *  @param band [out]  shape [n]; 1
  *  @param n    [in]   one of the two widths, 1 */
 void mor_external_band_fill(double *band, int n);

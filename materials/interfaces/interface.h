@@ -13,7 +13,7 @@
 /** @file
  *  What the interfaces to laws of other programs share: the descriptor made of a library, the state that such laws
  *  expect to be kept for them, one particle at a time with its motion in the frame of the end of the step, a band of
- *  known numbers behind every array that is handed out. For materials/interfaces only.
+ *  numbers of known bits behind every array that is handed out. For materials/interfaces only.
  *
  *  The step of a particle: the old stress and strain are turned by the rotation of the step (Hughes and Winget (1980));
  *  the strain increment is the mean of the increment and the turned increment, which is the increment in the frame of

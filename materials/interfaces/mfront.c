@@ -109,7 +109,9 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
     for (int k = 0; k < 2; ++k) {
         memcpy(a->state[k], p->state, n_bytes);
     }
-    memcpy(a->properties, law->constants, (size_t)law->n_constants * sizeof *a->properties);
+    for (int k = 0; k < law->n_constants; ++k) {
+        a->properties[k] = law->constants[k];
+    }
     a->outer[0] = ROOM_TEMPERATURE;
     a->density = p->density;
     a->step_factor = 1.0;

@@ -108,7 +108,9 @@ static void load_arguments(const mor_interface_law *law, const mor_external_poin
         a->dstran[k] = factor * p->strain_increment[PLACE[k]];
     }
     memcpy(a->statev, p->state, (size_t)law->n_state_values * sizeof *a->statev);
-    memcpy(a->props, law->constants, (size_t)law->n_constants * sizeof *a->props);
+    for (int k = 0; k < law->n_constants; ++k) {
+        a->props[k] = law->constants[k];
+    }
     a->nstatv = law->n_state_values;
     a->nprops = law->n_constants;
     a->time[0] = a->time[1] = p->time;

@@ -8,7 +8,7 @@
 !  9 allocates and never frees            10 stops the program           11 as 5, after props(4) seconds
 ! 12 keeps what it is told in statev      13 keeps scratch in a common block   14 deep recursion
 ! 15 stress against the strain             16 writes STATEV(3)             17 writes STATEV(40)
-! 18 adds to STATEV(nstatv + 1)            19 adds to what stands 63 numbers behind the last
+! 18 adds to STATEV(nstatv + 1) in a strain 19 adds to what stands 63 numbers behind the last
 subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpldt, stran, dstran, time, dtime, temp, &
                 dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props, nprops, coords, drot, pnewdt, celent, &
                 dfgrd0, dfgrd1, noel, npt, layer, kspt, jstep, kinc)
@@ -84,7 +84,7 @@ subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl, ddsddt, drplde, drpl
   case (17)
     statev(40) = dtime
   case (18)
-    statev(nstatv + 1) = statev(nstatv + 1) + 1.0d-9 * sqrt(sum(dstran**2))
+    if (any(dstran /= 0.0d0)) statev(nstatv + 1) = statev(nstatv + 1) + 1.0d-9 * sqrt(sum(dstran**2))
   case (19)
     statev(nstatv + 64) = statev(nstatv + 64) + 1.0d-9 * sqrt(sum(dstran**2))
   case (14)

@@ -264,6 +264,24 @@ static void case_that_asks_for_what_there_is_not_is_refused(void **state)
     }
 }
 
+/* Without its constants even a sound law may crash, and its complaint would hide the misspelled name. */
+static void law_is_not_tried_while_a_name_of_its_case_is_unknown(void **state)
+{
+    run_folder *folder = *state;
+    static const char *const check[] = {"check", "case.cfg", NULL};
+    char path[MOR_PATH_BYTES];
+    fortran_compile(folder, "umat_elastic", path);
+    write_case(folder, "library = './umat_elastic.so';");
+    program_outcome outcome = program_run(folder, check, 2);
+    program_expect_text(outcome.errors, "parameters that 'umat' refuses");
+    program_clear(&outcome);
+    write_case(folder, "library = './umat_elastic.so'; prop = (1e6, 0.3);");
+    outcome = program_run(folder, check, 2);
+    program_expect_text(outcome.errors, "did you mean 'props'");
+    assert_null(strstr(outcome.errors, "refuses"));
+    program_clear(&outcome);
+}
+
 /* Constants in MPa, as in millimeters and newtons. 0.2 m of 2000 kg/m3 weigh 3924 Pa, and K = E / 1.2. */
 static void law_too_soft_for_its_weight_is_warned_of(void **state)
 {
@@ -297,6 +315,7 @@ int main(void)
         UMAT_TEST(material_of_a_case_is_checked_with_its_parameters),
         UMAT_TEST(law_too_soft_for_its_weight_is_warned_of),
         UMAT_TEST(case_that_asks_for_what_there_is_not_is_refused),
+        UMAT_TEST(law_is_not_tried_while_a_name_of_its_case_is_unknown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -160,7 +160,8 @@ mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_cas
     }
     MOR_TRY(reader->context, read_parameters(reader, node, schemas, slot));
     MOR_TRY(reader->context, check_scale(reader, node, model));
-    return try_material(reader, node, model, slot);
+    const bool has_names = reader->mistakes == NULL || reader->mistakes->n == 0; /* else a value may be missing */
+    return has_names ? try_material(reader, node, model, slot) : MOR_OK;
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
@@ -173,8 +174,7 @@ mor_status mor_case_reader_in_plane(const mor_case_reader *reader, const mor_cas
         return MOR_OK;
     }
     return MOR_CASE_NODE_FAIL(reader->context, node == NULL ? group : node, /* written under its former name */
-                              "found %s with a component along z in plane strain; allowed: x and y; "
-                              "set it to zero",
+                              "found %s with a component along z in plane strain; allowed: x and y; set it to zero",
                               name);
 }
 

@@ -487,11 +487,11 @@ static void writes_behind_the_state_are_caught(void **state)
 {
     run_folder *folder = *state;
     static const char *const names[] = {"q"};
-    static const double faults[] = {16.0, 17.0, 18.0, 19.0};
+    static const double faults[] = {16.0, 17.0, 19.0, 18.0};
     for (int k = 0; k < 4; ++k) {
         const double constants[3] = {3e6, 0.25, faults[k]};
         const mor_external_request request = {.constants = constants, .n_constants = 3, .states = names, .n_states = 1};
-        if (k < 2) { /* in its first call */
+        if (k < 3) { /* in its first call, also where zero is added */
             mor_external_law *law = NULL;
             mor_material_instance *instance = NULL;
             assert_int_equal(make_law(folder, "umat_faults", &request, &law), MOR_OK);
