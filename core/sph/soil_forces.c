@@ -234,6 +234,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     mor_soil *soil = owner;
     (void)step;
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
+    arrays.has_singles = true; /* of the momentum */
     arrays.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);

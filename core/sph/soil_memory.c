@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/material/composite.h"
+#include "core/sph/pair/pair_pack.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/material/checked.h"
 #include "core/particle/kernel.h"
+#include "core/sph/pair/pair_pack.h"
 
 #include <string.h>
 
@@ -22,6 +23,7 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int l
                              .of_soil = soil->of_soil,
                              .one_soil = soil->one_soil,
                              .asleep = soil->sleep.states,
+                             .changing = soil->sleep.changing,
                              .inner = mor_view_read_shared(view, lists, &soil->inner)};
 }
 
@@ -80,37 +82,23 @@ typedef struct packing {
     double *records;
 } packing;
 
-/* What the momentum loop reads beside the records; what a scheme does not have stays zero, and means are read in steps
- * in which stress diffuses. */
+/* What a scheme does not have stays zero, and means are read in steps in which stress diffuses. */
 static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step)
 {
-    const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
-    const double *spin = mor_view_read(view, MOR_FIELD_SPIN_STRESS);
-    const double *hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS);
-    const double *mean = mor_soil_diffuses(soil, step) ? mor_view_read(view, MOR_FIELD_MEAN_STRESS) : NULL;
-    const double *flow = mor_view_read(view, MOR_FIELD_FLOW);
-    const double none[3] = {0.0, 0.0, 0.0};
-    const int64_t n = soil->set.n_particles;
-    MOR_PARALLEL_FOR (context, block, mor_block_count(n), 1) {
-        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, n); ++i) {
-            double *extra = soil->extra + i * MOR_EXTRA_SIZE;
-            mor_pair_pack_shears(stress + 6 * i, spin != NULL ? spin + 3 * i : none, extra);
-            memcpy(extra + MOR_EXTRA_HOURGLASS, hourglass != NULL ? hourglass + 3 * i : none, sizeof none);
-            if (mean != NULL) {
-                extra[MOR_EXTRA_FLOW] = flow[i];
-                memcpy(extra + MOR_EXTRA_MEAN, mean + 6 * i, 6 * sizeof *extra);
-            }
-        }
-    }
-    for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
-        memcpy(soil->extra + i * MOR_EXTRA_SIZE, soil->extra + (n - 1) * MOR_EXTRA_SIZE,
-               MOR_EXTRA_SIZE * sizeof(double));
-    }
+    const mor_pair_extra_job job = {.n_particles = soil->set.n_particles,
+                                    .stress = mor_view_read(view, MOR_FIELD_STRESS),
+                                    .spin = mor_view_read(view, MOR_FIELD_SPIN_STRESS),
+                                    .hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS),
+                                    .mean = mor_soil_diffuses(soil, step) ? mor_view_read(view, MOR_FIELD_MEAN_STRESS)
+                                                                          : NULL,
+                                    .flow = mor_view_read(view, MOR_FIELD_FLOW),
+                                    .changing = soil->sleep.changing};
+    mor_pair_pack_extra(context, &job, soil->extra);
+    mor_pair_repeat_last(soil->extra, MOR_EXTRA_SIZE, job.n_particles);
 }
 
-static mor_status pack_range(void *job, int64_t first, int64_t last)
+static mor_status pack_run(const packing *p, int64_t first, int64_t last)
 {
-    const packing *p = job;
     const mor_soil *soil = p->soil;
     double pressure[GRAIN];
     const double *state[MOR_MATERIAL_STATES_MAX];
@@ -137,6 +125,19 @@ static mor_status pack_range(void *job, int64_t first, int64_t last)
     return status;
 }
 
+static mor_status pack_range(void *job, int64_t first, int64_t last)
+{
+    const packing *p = job;
+    const int8_t *changing = p->soil->sleep.changing;
+    mor_status status = MOR_OK;
+    for (int64_t start = first, end = 0; start < last && status == MOR_OK; start = end) {
+        const bool changes = changing == NULL || changing[start / MOR_CLUSTER] != 0;
+        end = mor_sleep_particles_end(changing, start, last);
+        status = changes ? pack_run(p, start, end) : MOR_OK;
+    }
+    return status;
+}
+
 mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
@@ -155,19 +156,14 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
     if (chunk >= 0) {
         MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time));
         return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                        "material '%s' gives no pressure for one of the particles %lld to %lld of set '%s' at t = %.6g "
-                        "s",
+                        "material '%s' gives no pressure for one of particles %lld to %lld of set '%s' at t = %.6g s",
                         soil->material->material->name, (long long)(chunk * GRAIN),
                         (long long)((chunk + 1) * GRAIN - 1), soil->set.name, step->time);
     }
     if (soil->extra != NULL) {
         pack_extra(context, soil, view, step);
     }
-    /* The lanes behind the last particle repeat it; their sums are discarded. */
-    for (int64_t i = n; i < soil->tree.n_clusters * MOR_CLUSTER; ++i) {
-        memcpy(job.records + i * MOR_RECORD_SIZE, job.records + (n - 1) * MOR_RECORD_SIZE,
-               MOR_RECORD_SIZE * sizeof(double));
-    }
+    mor_pair_repeat_last(job.records, MOR_RECORD_SIZE, n);
     mor_soil_follow_records(context, soil);
     return MOR_OK;
 }

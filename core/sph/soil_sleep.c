@@ -94,8 +94,7 @@ mor_status mor_soil_put_back(mor_context *context, void *owner, mor_view *view, 
     double *data[STANDING];
     double *state[MOR_MATERIAL_STATES_MAX];
     mor_hold_array arrays[STANDING + MOR_MATERIAL_STATES_MAX];
-    (void)context;
-    (void)step;
+    (void)context, (void)step;
     for (int k = 0; k < STANDING; ++k) {
         data[k] = mor_view_write(view, standing[k]);
     }

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/particle/kernel.h"
+#include "core/sph/pair/pair_pack.h"
 #include "core/sph/pair/pair_single.h"
 #include "tests/common/cloud.h"
 

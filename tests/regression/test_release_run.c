@@ -76,13 +76,18 @@ static void resumed_run_releases_soil_alike(void **state)
 
 static void checked_run_holds_soil_and_changes_no_bit(void **state)
 {
-    uint64_t hashes[2];
-    for (int k = 0; k < 2; ++k) {
-        mor_session *session = load(*state, "end=70 ms", 1, k == 1);
-        session_expect(session, mor_session_settle(session), MOR_OK, "");
-        hashes[k] = finish(&session);
+    static const char *const settings[] = {"end=70 ms", "end=70 ms|numerics.precision=mixed",
+                                           "end=120 ms|numerics.sleep_after=30 ms",
+                                           "end=120 ms|numerics.sleep_after=30 ms|numerics.precision=mixed"};
+    for (int k = 0; k < 4; ++k) {
+        uint64_t hashes[2];
+        for (int is_checked = 0; is_checked < 2; ++is_checked) {
+            mor_session *session = load(*state, settings[k], 1, is_checked == 1);
+            session_expect(session, mor_session_settle(session), MOR_OK, "");
+            hashes[is_checked] = finish(&session);
+        }
+        assert_true(hashes[0] == hashes[1]);
     }
-    assert_true(hashes[0] == hashes[1]);
 }
 
 /* All soil settles; then the dam stands with the stress that it has settled to. */

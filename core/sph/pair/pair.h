@@ -62,19 +62,6 @@ enum {
     MOR_EXTRA_SIZE = 16
 };
 
-/** Packs what the momentum loop reads of a stress with a skew part.
- *  @param stress [in]   shape [6], unit Pa
- *  @param spin   [in]   shape [3]; axial vector of the skew part, unit Pa
- *  @param extra  [out]  shape [MOR_EXTRA_SIZE], units of MOR_EXTRA_...; the components beside the diagonal */
-static inline void mor_pair_pack_shears(const double *stress, const double *spin, double *extra)
-{
-    for (int a = 0; a < 3; ++a) {
-        extra[MOR_EXTRA_LOWER + a] = stress[MOR_XY + a] + spin[(a + 2) % 3];
-    }
-    extra[MOR_EXTRA_UPPER] = stress[MOR_XY] - spin[2];
-    extra[MOR_EXTRA_UPPER + 1] = stress[MOR_YZ] - spin[0];
-}
-
 /** What is read of a particle to diffuse a field. */
 enum {
     MOR_PAIR_FIELD_VALUE = 0,       /* g, unit: of the field */
@@ -166,7 +153,9 @@ typedef struct mor_pair_arrays {
     const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
     const int8_t *asleep;      /* shape [clusters]; not 0: whoever runs a loop leaves it out, with zeros; NULL: none */
+    const int8_t *changing;    /* shape [clusters]; 0: it is as in the last step; NULL: none is */
     mor_pair_single_arrays singles; /* for the loops in mixed precision only */
+    bool has_singles;               /* nothing but velocities has changed since these were packed */
 } mor_pair_arrays;
 
 /** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,

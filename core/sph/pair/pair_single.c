@@ -95,6 +95,15 @@ static void copy_record(const packing *it, const mor_images *images, int64_t i)
     }
 }
 
+static void copy_velocity(const packing *it, int64_t i)
+{
+    const double *velocity = it->list[0].from + i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY;
+    float *out = *it->list[0].room + i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY;
+    for (int a = 0; a < 3; ++a) {
+        out[a] = (float)velocity[a];
+    }
+}
+
 static inline void copy_numbers(float *out, const double *from, double scale, const int width)
 {
     for (int a = 0; a < width; ++a) {
@@ -170,13 +179,22 @@ mor_status mor_pair_singles_pack(mor_context *context, const mor_pair_constants 
     const packing it = open_packing(constants, singles, arrays);
     const int64_t padded = (arrays->n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER * MOR_CLUSTER;
     const int64_t n_images = mor_images_are_used(images) ? images->n : 0;
+    const bool is_new = singles->records == NULL || padded + n_images > singles->capacity;
+    const int8_t *changing = is_new ? NULL : arrays->changing;
     MOR_TRY(context, reserve(context, singles, it.list, padded, n_images));
-    MOR_PARALLEL_FOR (context, block, mor_block_count(padded), 1) {
-        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, padded); ++i) {
-            copy_entry(&it, images, i);
+    MOR_PARALLEL_FOR (context, cluster, padded / MOR_CLUSTER, MOR_BLOCK / MOR_CLUSTER) {
+        if (changing != NULL && changing[cluster] == 0) {
+            continue;
         }
-        for (int64_t i = block * MOR_BLOCK; i < mor_block_end(block, padded); i += MOR_CLUSTER) {
-            singles->is_wide[i / MOR_CLUSTER] = find_width(&it, i / MOR_CLUSTER) > WIDEST * constants->smoothing_length;
+        for (int64_t i = cluster * MOR_CLUSTER; i < (cluster + 1) * MOR_CLUSTER; ++i) {
+            if (arrays->has_singles && !is_new) {
+                copy_velocity(&it, i);
+            } else {
+                copy_entry(&it, images, i);
+            }
+        }
+        if (!arrays->has_singles || is_new) {
+            singles->is_wide[cluster] = find_width(&it, cluster) > WIDEST * constants->smoothing_length;
         }
     }
     MOR_PARALLEL_FOR (context, k, n_images, MOR_BLOCK) {

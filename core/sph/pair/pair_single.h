@@ -30,7 +30,7 @@ typedef struct mor_pair_singles {
  *  opposite places.
  *  @param constants [in]      the smoothing length gives the units
  *  @param images    [in]      of the particles; zeroed: none
- *  @param singles   [in,out]  room, made larger where it does not suffice
+ *  @param singles   [in,out]  room, made larger where it does not suffice; what does not change is as in the last step
  *  @param arrays    [in,out]  their singles are written; NULL in them for what is NULL in arrays, extra
  *                             without accelerations, too
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more images than ever before. */

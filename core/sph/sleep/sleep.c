@@ -12,6 +12,10 @@
 /* Clusters a thread takes at once, to decide and to compute. */
 enum { GRAIN = 256, CLUSTERS = 32 };
 
+/* Of a cluster that is awake. It changes in the first two steps in which it sleeps, too: its strain rate is set to zero
+ * after it was packed in the first. */
+enum { CHANGING = 3 };
+
 static int64_t smaller(int64_t a, int64_t b)
 {
     return a < b ? a : b;
@@ -27,6 +31,7 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
     MOR_TRY(context, MOR_NEW(context, &sleep->restless, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->deep, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
+    MOR_TRY(context, MOR_NEW(context, &sleep->changing, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of clusters"));
     return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of clusters");
 }
@@ -37,6 +42,7 @@ void mor_sleep_clear(mor_context *context, mor_sleep *sleep)
     MOR_FREE(context, &sleep->neighbors);
     MOR_FREE(context, &sleep->boxes);
     MOR_FREE(context, &sleep->first);
+    MOR_FREE(context, &sleep->changing);
     MOR_FREE(context, &sleep->at_bodies);
     MOR_FREE(context, &sleep->deep);
     MOR_FREE(context, &sleep->restless);
@@ -171,6 +177,7 @@ mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, cons
     const int64_t n = relation->n_clusters;
     sleep->n_clusters = n;
     mor_sleep_forget_bodies(sleep);
+    memset(sleep->changing, CHANGING, (size_t)n);
     MOR_PARALLEL_FOR (context, cluster, n, GRAIN) {
         sleep->first[cluster + 1] = list_clusters(relation, cluster, NULL);
     }
@@ -249,12 +256,16 @@ void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_jo
             sleep->states[cluster] = MOR_SLEEP_HELD;
         }
         sleep->deep[cluster] = sleep->calm[cluster];
+        sleep->changing[cluster] -= sleep->changing[cluster] > 0;
+        if (sleep->states[cluster] == MOR_SLEEP_AWAKE || context->is_checked) { /* checks pack all, and change no bit */
+            sleep->changing[cluster] = CHANGING;
+        }
     }
 }
 
 double mor_sleep_bytes(const mor_sleep *sleep)
 {
-    const double of_cluster = 5.0 + (double)sizeof *sleep->first + 6.0 * (double)sizeof *sleep->boxes;
+    const double of_cluster = 6.0 + (double)sizeof *sleep->first + 6.0 * (double)sizeof *sleep->boxes;
     return of_cluster * (double)sleep->n_clusters + (double)sleep->capacity * (double)sizeof *sleep->neighbors;
 }
 
@@ -262,6 +273,7 @@ void mor_sleep_wake(mor_sleep *sleep)
 {
     memset(sleep->states, 0, (size_t)sleep->n_clusters);
     memset(sleep->deep, 0, (size_t)sleep->n_clusters);
+    memset(sleep->changing, CHANGING, (size_t)sleep->n_clusters);
     sleep->n_asleep = 0;
 }
 
@@ -276,10 +288,10 @@ static int64_t find_run_end(const int8_t *states, int64_t first, int64_t last)
     return end;
 }
 
-int64_t mor_sleep_particles_end(const int8_t *states, int64_t first, int64_t last)
+int64_t mor_sleep_particles_end(const int8_t *flags, int64_t first, int64_t last)
 {
     const int64_t n_clusters = (last + MOR_CLUSTER - 1) / MOR_CLUSTER;
-    return smaller(MOR_CLUSTER * find_run_end(states, first / MOR_CLUSTER, n_clusters), last);
+    return smaller(MOR_CLUSTER * find_run_end(flags, first / MOR_CLUSTER, n_clusters), last);
 }
 
 void mor_sleep_run(mor_context *context, const int8_t *states, int64_t n_clusters, mor_sleep_work work,

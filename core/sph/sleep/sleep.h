@@ -34,6 +34,7 @@ typedef struct mor_sleep {
     uint8_t *restless;   /* shape [clusters]; scratch, bit k: particle k of it is not quiet */
     int8_t *deep;        /* shape [clusters]; 1: it and all its neighbors slept in the last step */
     int8_t *at_bodies;   /* shape [clusters]; 1: points of bodies are on its lists */
+    int8_t *changing;    /* shape [clusters]; 0: nothing of it has changed since it was packed in the last step */
     double *boxes;       /* shape [clusters, 6]; minimum and maximum corner of the particles, m */
     int64_t *first;      /* shape [clusters + 1]; of each cluster's neighbors, and one past the last */
     int32_t *neighbors;  /* shape [capacity]; clusters beside each cluster, without itself */
@@ -77,7 +78,7 @@ void mor_sleep_clear(mor_context *context, mor_sleep *sleep);
 /** Finds which clusters list particles of one another, after each build of the lists.
  *  @param relation [in]  built, of the particles with themselves, not through periodic faces; complete within the
  *                        support of the kernel until the next build
- *  Gives: no cluster is held, and none is at bodies.
+ *  Gives: no cluster is held, none is at bodies, and all change.
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: O(entries); allocates only for more neighbors than ever before. */
 mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, const mor_relation *relation);
 
@@ -121,11 +122,11 @@ static inline bool mor_sleep_is(const int8_t *states, int64_t cluster, int state
     return states != NULL && states[cluster] >= state;
 }
 
-/** Returns one past the last particle from first on, at most last, that sleeps, or is awake, as first does.
- *  @param states [in]  shape [clusters]; NULL: all are awake
+/** Returns one past the last particle from first on, at most last, whose cluster has a flag, or has none, as first does.
+ *  @param flags  [in]  shape [clusters]; of states: not 0 where it sleeps; NULL: none has
  *  @param first  [in]  first of the particles of a cluster, below last
  *  @param last   [in]  one past the last particle that is asked for */
-int64_t mor_sleep_particles_end(const int8_t *states, int64_t first, int64_t last);
+int64_t mor_sleep_particles_end(const int8_t *flags, int64_t first, int64_t last);
 
 /** Does something for clusters [first, last), all of which sleep or all of which are awake. */
 typedef void (*mor_sleep_work)(const void *owner, const void *job, int64_t first, int64_t last, bool sleeps);
