@@ -41,6 +41,7 @@ void mor_pair_pack_extra(mor_context *context, const mor_pair_extra_job *job, do
 
 /** Gives the lanes behind the last particle its values; their sums are discarded.
  *  @param values [in,out]  shape [n padded to 8, width], any unit
+ *  @param width  [in]      numbers of a particle, at least 1
  *  @param n      [in]      number of particles, at least 1 */
 static inline void mor_pair_repeat_last(double *values, int width, int64_t n)
 {

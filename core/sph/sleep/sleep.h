@@ -122,7 +122,7 @@ static inline bool mor_sleep_is(const int8_t *states, int64_t cluster, int state
     return states != NULL && states[cluster] >= state;
 }
 
-/** Returns one past the last particle from first on, at most last, whose cluster has a flag, or has none, as first does.
+/** Returns one past the last particle from first on, at most last, whose cluster has a flag, or none, as first does.
  *  @param flags  [in]  shape [clusters]; of states: not 0 where it sleeps; NULL: none has
  *  @param first  [in]  first of the particles of a cluster, below last
  *  @param last   [in]  one past the last particle that is asked for */

@@ -165,6 +165,27 @@ static void cluster_is_held_from_the_second_step_of_sleep_on(void **state)
     assert_false(mor_sleep_is(NULL, 0, MOR_SLEEP_ASLEEP));
 }
 
+/* In the first step of sleep velocities, in the second strain rates are packed as zero. */
+static void cluster_changes_until_it_has_slept_for_two_steps(void **state)
+{
+    (void)state;
+    for (int step = 0; step < 5; ++step) {
+        it.quiet[20 * MOR_CLUSTER] = step == 3 ? 0.0 : 1.0;
+        decide(NULL, 0);
+        assert_int_equal(it.sleep.changing[0] != 0, step < 2);
+        assert_int_equal(it.sleep.changing[20] != 0, step != 2);
+    }
+    assert_int_equal(mor_sleep_find_neighbors(&it.context, &it.sleep, &it.relation), MOR_OK); /* the order may change */
+    decide(NULL, 0);
+    assert_int_not_equal(it.sleep.changing[0], 0);
+    it.context.is_checked = true; /* what is not packed would be found not to be written */
+    for (int step = 0; step < 4; ++step) {
+        decide(NULL, 0);
+    }
+    assert_int_not_equal(it.sleep.changing[0], 0);
+    it.context.is_checked = false;
+}
+
 /* Of 800 steps of an eighth of a second, those after which a body rests that has not moved on by 20 mm for 1 s. */
 static int count_rests(double speed, double spin)
 {
@@ -244,6 +265,7 @@ int main(void)
         cmocka_unit_test(clusters_are_visited_once_those_that_sleep_apart),
         cmocka_unit_test(particles_end_where_sleep_does_or_the_range),
         cmocka_unit_test_setup_teardown(cluster_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
+        cmocka_unit_test_setup_teardown(cluster_changes_until_it_has_slept_for_two_steps, open_row, close_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
