@@ -57,20 +57,21 @@ static double depth_at(const profile *it, double x, double y)
     return it->depth - it->tilt * x - 0.5 * it->curvature * (x * x + y * y);
 }
 
-/* Means over the window of the depth where it is positive, of its square, and of x and of the squared distance from the
- * node times the depth. */
-static void sum_window(const double *weights, const profile *it, double *means)
+/* Adds means over the window of the depth where it is positive, of its square, and of x and of the squared distance
+ * from the node times the depth. Points further than `radius` from `lowest`, where it is deepest, bear nothing. */
+static void sum_window(const double *weights, const profile *it, double lowest, double radius, double *means)
 {
     const double step = POINT_STEP * it->length;
-    const int across = it->dimension == 3 ? HALF_POINTS : 0;
-    means[0] = means[1] = means[2] = means[3] = 0.0;
+    const int first = (int)fmax(floor((lowest - radius) / step), -HALF_POINTS);
+    const int last = (int)fmin(ceil((lowest + radius) / step), HALF_POINTS);
+    const int across = it->dimension == 3 ? (int)fmin(ceil(radius / step), HALF_POINTS) : 0;
     for (int b = 0; b <= across; ++b) {
         const double y = b * step;
         const double weight = it->dimension == 3 ? (b == 0 ? 1.0 : 2.0) * weights[HALF_POINTS + b] : 1.0;
-        for (int a = 0; a < POINTS; ++a) {
-            const double x = (a - HALF_POINTS) * step;
+        for (int a = first; a <= last; ++a) {
+            const double x = a * step;
             const double d = mor_max(depth_at(it, x, y), 0.0);
-            const double w = weight * weights[a];
+            const double w = weight * weights[HALF_POINTS + a];
             means[0] += w * d;
             means[1] += w * d * d;
             means[2] += w * d * x;
@@ -79,8 +80,7 @@ static void sum_window(const double *weights, const profile *it, double *means)
     }
 }
 
-/* The same where all of the contact lies between a few points: points in the contact itself, and the integrals of a
- * paraboloid. `lowest` is where it is deepest, `radius` how far it reaches from there. */
+/* The same where all of it lies between a few points: points in the contact itself, and integrals of a paraboloid. */
 static void sum_narrow(const profile *it, double lowest, double radius, double *means)
 {
     const double scale = 1.0 / (MOR_CONTACT_DEVIATION * it->length);
@@ -130,7 +130,7 @@ static void sum_profile(const double *weights, const profile *it, double *means)
         sum_narrow(it, lowest, radius, means);
         return;
     }
-    sum_window(weights, it, means);
+    sum_window(weights, it, lowest, it->curvature > 0.0 ? radius : INFINITY, means);
 }
 
 /* The bottom of a ball lies below a node beside it by at most the square of the reach of a window over twice its

@@ -13,10 +13,11 @@ void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const dou
     const int64_t n = soil->tree.n_clusters;
     MOR_PARALLEL_FOR (context, cluster, n, MOR_BLOCK) {
         const int64_t first = 6 * MOR_CLUSTER * cluster;
-        if (soil->at_wall[cluster]) {
+        const bool is_read = soil->at_wall[cluster] && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_ASLEEP);
+        if (is_read) {
             memcpy(closed + first, moments + first, 6 * MOR_CLUSTER * sizeof *closed);
         }
-        if (soil->at_wall[cluster] && continued != NULL) {
+        if (is_read && continued != NULL) {
             memset(continued + first, 0, 6 * MOR_CLUSTER * sizeof *continued);
         }
     }

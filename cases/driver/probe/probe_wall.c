@@ -5,10 +5,15 @@
 
 #include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
+#include "core/base/reduce.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef mor_probe_view view;
+
+/* Blocks of points, each worked on by one thread. */
+enum { GAP_BLOCKS = 256 };
 
 /* Component of a vector that the soil keeps for each wall. */
 static mor_status of_wall(mor_context *context, const view *v, const double vectors[][3], double *value)
@@ -31,14 +36,32 @@ static mor_status wall_impulse(mor_context *context, const view *v, double *valu
     return of_wall(context, v, v->simulation->soil.wall_impulse, value);
 }
 
+/* Points of soil and the wall whose distance from them is asked for. */
+typedef struct gap_job {
+    const view *view;
+    int wall;
+    double time; /* s */
+} gap_job;
+
+static void find_gap(void *job, int64_t first, int64_t last, double *values)
+{
+    const gap_job *it = job;
+    const double *points = it->view->points.position + 3 * first;
+    *values = fmin(*values, mor_simulation_wall_gap(it->view->simulation, it->wall, it->time, points, last - first));
+}
+
 /* Least distance of a soil particle from the shape of a wall, which moves with its velocity. */
 static mor_status wall_gap(mor_context *context, const view *v, double *value)
 {
     const mor_case *c = v->simulation->the_case;
-    const double time = mor_schedule_time(&v->simulation->schedule);
+    gap_job job = {.view = v, .time = mor_schedule_time(&v->simulation->schedule)};
+    const mor_blocks blocks = {.n_items = v->points.n_points, .n_blocks = GAP_BLOCKS, .grain = 1};
+    double partial[GAP_BLOCKS];
     for (int w = 0; w < c->n_walls; ++w) {
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
-            *value = mor_simulation_wall_gap(v->simulation, w, time, v->points.position, v->points.n_points);
+            job.wall = w;
+            *value = INFINITY;
+            mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SMALLEST, 1, find_gap, &job, partial, value);
             return MOR_OK;
         }
     }

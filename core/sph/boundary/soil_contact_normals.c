@@ -7,90 +7,23 @@
 #include "core/base/eigen.h"
 #include "core/base/math.h"
 #include "core/base/parallel.h"
+#include "core/sph/lanes/soil_lanes.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
 
-/* Principal values of the faces seen, their sum being 1, that tell a direction in which several bear: two faces seen
- * alike have (1 - cos(angle)) / 2. Below ALIKE (16 degrees) they are taken for one, from MEET (33 degrees) on for two.
- * Down to a quarter of these, edges and corners close to the ripple of the lattice; at twice an edge misses 7 %. */
-#define ALIKE 0.02
+/* Principal values of the faces seen, their sum being 1, that tell a direction in which several bear: below ALIKE they
+ * are taken for one, from MEET (33 degrees) on for two. Down to a quarter of these, edges and corners close to the
+ * ripple of the lattice; at twice an edge misses 7 %. */
+#define ALIKE MOR_FACES_ALIKE
 #define MEET 0.08
-
-/* Of normals that are equal but for rounding. */
-#define FLAT 1e-12
 
 /* How far a direction is one of the faces seen; share: principal value of a sum of 1. */
 static double fade(double share)
 {
     return mor_min(mor_max((share - ALIKE) / (MEET - ALIKE), 0.0), 1.0);
-}
-
-/* Whether faces differ so little that one direction is left: the second invariant of a tensor with trace 1 bounds the
- * smaller principal values. */
-static bool is_flat(const double *faces, double trace, double limit)
-{
-    const double plane = faces[MOR_XX] * faces[MOR_YY] - faces[MOR_XY] * faces[MOR_XY];
-    const double side = faces[MOR_YY] * faces[MOR_ZZ] - faces[MOR_YZ] * faces[MOR_YZ];
-    const double front = faces[MOR_ZZ] * faces[MOR_XX] - faces[MOR_ZX] * faces[MOR_ZX];
-    return plane + side + front <= limit * (1.0 - limit) * trace * trace;
-}
-
-/* The one normal of a plane: the row of n (x) n with the largest diagonal. */
-static void find_normal(const double *faces, double *normal)
-{
-    static const int rows[3][3] = {{MOR_XX, MOR_XY, MOR_ZX}, {MOR_XY, MOR_YY, MOR_YZ}, {MOR_ZX, MOR_YZ, MOR_ZZ}};
-    const int half = faces[MOR_XX] > faces[MOR_YY] ? 0 : 1;
-    const int row = faces[half] > faces[MOR_ZZ] ? half : 2;
-    double length2 = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        normal[a] = faces[rows[row][a]];
-        length2 += normal[a] * normal[a];
-    }
-    const double inverse = 1.0 / sqrt(length2);
-    for (int a = 0; a < 3; ++a) {
-        normal[a] *= inverse;
-    }
-}
-
-/* Squares of a tensor, of a trace of 1, whose smaller principal values are below ALIKE that leave one direction: its
- * ninth power, with the row that is taken, 0.02^9. */
-enum { SQUARES = 3 };
-
-static void square(double *tensor)
-{
-    const double xx = tensor[MOR_XX], yy = tensor[MOR_YY], zz = tensor[MOR_ZZ];
-    const double xy = tensor[MOR_XY], yz = tensor[MOR_YZ], zx = tensor[MOR_ZX];
-    tensor[MOR_XX] = xx * xx + (xy * xy + zx * zx);
-    tensor[MOR_YY] = yy * yy + (xy * xy + yz * yz);
-    tensor[MOR_ZZ] = zz * zz + (yz * yz + zx * zx);
-    tensor[MOR_XY] = xy * (xx + yy) + zx * yz;
-    tensor[MOR_YZ] = yz * (yy + zz) + xy * zx;
-    tensor[MOR_ZX] = zx * (zz + xx) + xy * yz;
-}
-
-/* The direction that is left where faces count as one, and its principal value. Costs a tenth of all three. */
-static double find_one_normal(const double *faces, double trace, double *normal)
-{
-    const double scale = 1.0 / trace;
-    double power[6];
-    double next[3];
-    for (int a = 0; a < 6; ++a) {
-        power[a] = scale * faces[a];
-    }
-    for (int k = 0; k < SQUARES; ++k) {
-        square(power); /* its largest principal value: 0.98^8 to 1 */
-    }
-    find_normal(power, next);
-    mor_symmetric_apply(faces, next, normal);
-    const double inverse = 1.0 / mor_vector_length(normal);
-    for (int a = 0; a < 3; ++a) {
-        normal[a] *= inverse;
-    }
-    mor_symmetric_apply(faces, normal, next);
-    return mor_vector_dot(next, normal);
 }
 
 /* Principal directions of the faces seen: values, axes in columns, and how far faces bear in each, 0 to 1. */
@@ -118,16 +51,17 @@ typedef struct directions {
     bearing several;  /* otherwise */
 } directions;
 
-static void find_directions(const double *faces, double trace, directions *d)
+/* Takes those of a lane from what was found of eight. */
+static void take_directions(const double *faces, const mor_face_normals *found, int64_t lane, directions *d)
 {
-    d->is_one = is_flat(faces, trace, ALIKE);
-    d->is_plane = is_flat(faces, trace, FLAT);
-    if (d->is_plane) {
-        find_normal(faces, d->normal);
-    } else if (d->is_one) {
-        d->value = find_one_normal(faces, trace, d->normal);
-    } else {
-        find_bearing(faces, trace, &d->several);
+    d->is_one = found->is_one[lane] != 0;
+    d->is_plane = found->is_plane[lane] != 0;
+    d->value = found->value[lane];
+    for (int a = 0; a < 3; ++a) {
+        d->normal[a] = found->normal[a][lane];
+    }
+    if (!d->is_one) {
+        find_bearing(faces, mor_symmetric_trace(faces), &d->several);
     }
 }
 
@@ -175,13 +109,12 @@ static void solve_corner(const directions *d, mor_contact_corner *corner)
 
 /* Keeps of the kernel gradient of a lane what its own faces bear, and notes the rest for corners. What is listed, but
  * out of reach, leaves no trace. Where no other faces are seen, the directions serve the corner, too. */
-static void project_lane(const double *faces, bool limits, bool is_alone, double *gradient, double *rest,
-                         mor_contact_corner *corner)
+static void project_lane(const double *faces, const mor_face_normals *found, int64_t lane, bool limits, bool is_alone,
+                         double *gradient, double *rest, mor_contact_corner *corner)
 {
-    const double trace = mor_symmetric_trace(faces);
     directions own;
     memset(rest, 0, 3 * sizeof *rest);
-    if (!(trace > 0.0)) {
+    if (!(mor_symmetric_trace(faces) > 0.0)) {
         return;
     }
     if (!corner->sees_any) {
@@ -189,7 +122,7 @@ static void project_lane(const double *faces, bool limits, bool is_alone, double
     }
     corner->is_limited |= limits;
     double kept[3] = {gradient[0], gradient[1], gradient[2]};
-    find_directions(faces, trace, &own);
+    take_directions(faces, found, lane, &own);
     if (own.is_one) {
         const double along = mor_vector_dot(gradient, own.normal);
         for (int a = 0; a < 3; ++a) {
@@ -219,9 +152,12 @@ static bool may_have_coulomb_friction(const mor_boundary_patch *patch)
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
                               const int8_t *at_wall, mor_contact_corner *corners)
 {
+    const mor_soil_lanes *lanes = mor_soil_lanes_select(NULL);
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         const bool is_held = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_HELD);
         for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
+            mor_face_normals found;
+            lanes->find_normals(contact->seen_faces + MOR_FACE_SUMS * MOR_CLUSTER * slot, MOR_FACE_SUMS, &found);
             const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
             const bool is_alone = at_wall != NULL && at_wall[contact->slots[slot].cluster] == 1;
             const bool limits = mor_soil_contact_limits_all(contact, coulomb_pulls) &&
@@ -232,9 +168,32 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
                 if (contact->given != NULL) {
                     memcpy(contact->given + lane * MOR_SHARES + MOR_SHARE_DIRECTION, gradient, 3 * sizeof *gradient);
                 }
-                project_lane(contact->seen_faces + MOR_FACE_SUMS * lane, limits, is_alone, gradient,
+                project_lane(contact->seen_faces + MOR_FACE_SUMS * lane, &found, k, limits, is_alone, gradient,
                              contact->transfer + 3 * lane, corners + first + k);
             }
+        }
+    }
+}
+
+/* Of n particles that stand together, at most eight. */
+static void solve_cluster(const mor_soil_lanes *lanes, mor_contact_corner *corners, int64_t n)
+{
+    double faces[MOR_CLUSTER][6] = {{0.0}};
+    mor_face_normals found;
+    bool is_any = false;
+    for (int64_t k = 0; k < n; ++k) {
+        is_any = is_any || (corners[k].sees_any && !corners[k].is_solved);
+        memcpy(faces[k], corners[k].faces, sizeof faces[k]);
+    }
+    if (!is_any) {
+        return;
+    }
+    lanes->find_normals(faces[0], 6, &found);
+    for (int64_t k = 0; k < n; ++k) {
+        if (corners[k].sees_any && !corners[k].is_solved) {
+            directions d;
+            take_directions(faces[k], &found, k, &d);
+            solve_corner(&d, corners + k);
         }
     }
 }
@@ -242,16 +201,14 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
                                     const int8_t *sleep, mor_contact_corner *corners)
 {
+    const mor_soil_lanes *lanes = mor_soil_lanes_select(NULL);
     MOR_PARALLEL_FOR (context, cluster, (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER, MOR_BLOCK / MOR_CLUSTER) {
         const bool is_held = mor_sleep_is(sleep, cluster, MOR_SLEEP_HELD);
         const bool is_at_wall = !is_held && (at_wall == NULL || at_wall[cluster]);
         const int64_t first = cluster * MOR_CLUSTER;
-        for (int64_t i = first; is_at_wall && i < first + MOR_CLUSTER && i < n_particles; ++i) {
-            if (corners[i].sees_any && !corners[i].is_solved) {
-                directions d;
-                find_directions(corners[i].faces, mor_symmetric_trace(corners[i].faces), &d);
-                solve_corner(&d, corners + i);
-            }
+        if (is_at_wall) {
+            solve_cluster(lanes, corners + first,
+                          n_particles - first < MOR_CLUSTER ? n_particles - first : MOR_CLUSTER);
         }
     }
 }

@@ -53,10 +53,28 @@ typedef struct mor_soil_memory_job {
     double *hourglass;                 /* shape [n_particles, 3], m; NULL: none */
 } mor_soil_memory_job;
 
+/** Principal value of the faces that a particle sees, their sum being 1, below which two directions are taken for one:
+ *  16 degrees; two faces seen alike have (1 - cos(angle)) / 2. */
+#define MOR_FACES_ALIKE 0.02
+
+/** What is left of the faces that each of eight particles sees where they count as one. */
+typedef struct mor_face_normals {
+    double normal[3][8]; /* of that one, 1 */
+    double value[8];     /* its principal value, unit of the faces; not of a plane */
+    int64_t is_one[8];   /* not 0: faces count as one; else the others are not to be read */
+    int64_t is_plane[8]; /* not 0: they are one, but for rounding */
+} mor_face_normals;
+
 /** The passes of one instruction set, over clusters [first, last) of a job. Static, shared. */
 typedef struct mor_soil_lanes {
     void (*fit)(const mor_soil_fit_job *job, int64_t first, int64_t last);
     void (*remember)(const mor_soil_memory_job *job, int64_t first, int64_t last);
+
+    /** Finds the normals that eight particles see.
+     *  @param faces  [in]   shape [8, stride]; sums of n (x) n, symmetric tensors, shape [6], any unit
+     *  @param stride [in]   numbers from one tensor to the next, 6 or more
+     *  @param found  [out]  one object; undefined where a particle sees no face */
+    void (*find_normals)(const double *faces, int stride, mor_face_normals *found);
 } mor_soil_lanes;
 
 /** Returns those of the best instruction set this processor has, or of the one asked for.
