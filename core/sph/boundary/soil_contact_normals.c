@@ -33,9 +33,16 @@ typedef struct bearing {
     double shares[3];
 } bearing;
 
-static void find_bearing(const double *faces, double trace, bearing *b)
+static void find_bearing(const double *faces, const mor_face_normals *found, int64_t lane, bearing *b)
 {
-    mor_symmetric_eigen(faces, b->values, b->axes);
+    const double trace = mor_symmetric_trace(faces);
+    if (found->has_axes[lane] == 0) {
+        mor_symmetric_eigen(faces, b->values, b->axes);
+    }
+    for (int k = 0; k < 9 && found->has_axes[lane] != 0; ++k) {
+        b->values[k / 3] = found->values[k / 3][lane];
+        b->axes[k] = found->axes[k][lane];
+    }
     const double largest = mor_max(mor_max(b->values[0], b->values[1]), b->values[2]);
     for (int k = 0; k < 3; ++k) {
         b->shares[k] = b->values[k] == largest ? 1.0 : fade(b->values[k] / trace);
@@ -61,7 +68,7 @@ static void take_directions(const double *faces, const mor_face_normals *found, 
         d->normal[a] = found->normal[a][lane];
     }
     if (!d->is_one) {
-        find_bearing(faces, mor_symmetric_trace(faces), &d->several);
+        find_bearing(faces, found, lane, &d->several);
     }
 }
 

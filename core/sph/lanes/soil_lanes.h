@@ -57,12 +57,16 @@ typedef struct mor_soil_memory_job {
  *  16 degrees; two faces seen alike have (1 - cos(angle)) / 2. */
 #define MOR_FACES_ALIKE 0.02
 
-/** What is left of the faces that each of eight particles sees where they count as one. */
+/** What is left of the faces that each of eight particles sees: one direction, or several. */
 typedef struct mor_face_normals {
     double normal[3][8]; /* of that one, 1 */
     double value[8];     /* its principal value, unit of the faces; not of a plane */
-    int64_t is_one[8];   /* not 0: faces count as one; else the others are not to be read */
+    int64_t is_one[8];   /* not 0: faces count as one; else the two above are not to be read */
     int64_t is_plane[8]; /* not 0: they are one, but for rounding */
+    int64_t has_axes[8]; /* not 0: they are several, of which the next two are there; 0 of several: mor_symmetric_eigen
+                          * finds them, one of them lying across the third axis */
+    double values[3][8]; /* principal ones, in no order, unit of the faces */
+    double axes[9][8];   /* component a of the unit direction of value k at 3 a + k, 1 */
 } mor_face_normals;
 
 /** The passes of one instruction set, over clusters [first, last) of a job. Static, shared. */

@@ -8,7 +8,6 @@
 #include "core/sph/pair/pair.h"
 
 #include <stdbool.h>
-#include <string.h>
 
 /* SPARSE: mean of the moment below which neighbors are too few for a fit; FEW: from where on it is taken as it is.
  * ALONE, AMONG: likewise over the soil alone, of a particle at a boundary; it is 0.3 in the corner of a block. CLOSE:
@@ -387,99 +386,10 @@ static void remember_clusters(const mor_soil_memory_job *job, int64_t first, int
     }
 }
 
-/* ---- Normals of faces -------------------------------------------------------------------------------------------- */
-
-/* Principal values of normals that are equal but for rounding. */
-#define FLAT_FACES 1e-12
-
-/* Squares of a tensor, of a trace of 1, whose smaller principal values are below MOR_FACES_ALIKE that leave one
- * direction: its ninth power, with the row that is taken, 0.02^9. */
-enum { SQUARES = 3 };
-
-/* Whether faces differ so little that one direction is left: the second invariant of a tensor with trace 1 bounds the
- * smaller principal values. */
-INLINE mask are_alike(const vec *f, vec trace, double limit)
-{
-    const vec plane = f[MOR_XX] * f[MOR_YY] - f[MOR_XY] * f[MOR_XY];
-    const vec side = f[MOR_YY] * f[MOR_ZZ] - f[MOR_YZ] * f[MOR_YZ];
-    const vec front = f[MOR_ZZ] * f[MOR_XX] - f[MOR_ZX] * f[MOR_ZX];
-    return plane + side + front <= limit * (1.0 - limit) * trace * trace;
-}
-
-/* The one normal of a plane: the row of n (x) n with the largest diagonal. */
-INLINE void take_row(const vec *f, vec *normal)
-{
-    const mask first = f[MOR_XX] > f[MOR_YY];
-    const mask half = select_lanes(first, f[MOR_XX], f[MOR_YY]) > f[MOR_ZZ];
-    normal[0] = select_lanes(half, select_lanes(first, f[MOR_XX], f[MOR_XY]), f[MOR_ZX]);
-    normal[1] = select_lanes(half, select_lanes(first, f[MOR_XY], f[MOR_YY]), f[MOR_YZ]);
-    normal[2] = select_lanes(half, select_lanes(first, f[MOR_ZX], f[MOR_YZ]), f[MOR_ZZ]);
-}
-
-INLINE void make_unit(vec *a)
-{
-    const vec inverse = 1.0 / square_root(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    for (int k = 0; k < 3; ++k) {
-        a[k] *= inverse;
-    }
-}
-
-INLINE void square_tensor(vec *t)
-{
-    const vec xx = t[MOR_XX], yy = t[MOR_YY], zz = t[MOR_ZZ];
-    const vec xy = t[MOR_XY], yz = t[MOR_YZ], zx = t[MOR_ZX];
-    t[MOR_XX] = xx * xx + (xy * xy + zx * zx);
-    t[MOR_YY] = yy * yy + (xy * xy + yz * yz);
-    t[MOR_ZZ] = zz * zz + (yz * yz + zx * zx);
-    t[MOR_XY] = xy * (xx + yy) + zx * yz;
-    t[MOR_YZ] = yz * (yy + zz) + xy * zx;
-    t[MOR_ZX] = zx * (zz + xx) + xy * yz;
-}
-
-/* The direction that is left where faces count as one; returns its principal value. Costs less than all three. */
-INLINE vec find_one_normal(const vec *f, vec trace, vec *normal)
-{
-    const vec scale = 1.0 / trace;
-    vec power[6];
-    vec next[3];
-    for (int a = 0; a < 6; ++a) {
-        power[a] = scale * f[a];
-    }
-    for (int k = 0; k < SQUARES; ++k) {
-        square_tensor(power); /* its largest principal value: 0.98^8 to 1 */
-    }
-    take_row(power, next);
-    make_unit(next);
-    apply_symmetric(f, next, normal, 3);
-    make_unit(normal);
-    apply_symmetric(f, normal, next, 3);
-    return next[0] * normal[0] + next[1] * normal[1] + next[2] * normal[2];
-}
-
-static void find_normals(const double *faces, int stride, mor_face_normals *found)
-{
-    for (int part = 0; part < PARTS; ++part) {
-        const int first = part * LANES;
-        vec f[6];
-        vec flat[3];
-        vec normal[3];
-        load_first(faces + (int64_t)first * stride, stride, 6, f);
-        const vec trace = f[MOR_XX] + f[MOR_YY] + f[MOR_ZZ];
-        const mask is_one = are_alike(f, trace, MOR_FACES_ALIKE);
-        const mask is_plane = are_alike(f, trace, FLAT_FACES);
-        const vec value = find_one_normal(f, trace, normal);
-        take_row(f, flat);
-        make_unit(flat);
-        for (int a = 0; a < 3; ++a) {
-            const vec own = select_lanes(is_plane, flat[a], normal[a]);
-            memcpy(found->normal[a] + first, &own, sizeof own);
-        }
-        memcpy(found->value + first, &value, sizeof value);
-        memcpy(found->is_one + first, &is_one, sizeof is_one);
-        memcpy(found->is_plane + first, &is_plane, sizeof is_plane);
-    }
-}
+/* In face_lanes_isa.c. */
+void MOR_ISA_NAME(mor_face_normals_find)(const double *faces, int stride, mor_face_normals *found);
 
 extern const mor_soil_lanes MOR_ISA_NAME(mor_soil_lanes);
 
-const mor_soil_lanes MOR_ISA_NAME(mor_soil_lanes) = {fit_clusters, remember_clusters, find_normals};
+const mor_soil_lanes MOR_ISA_NAME(mor_soil_lanes) = {fit_clusters, remember_clusters,
+                                                     MOR_ISA_NAME(mor_face_normals_find)};
