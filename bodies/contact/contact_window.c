@@ -58,12 +58,14 @@ static double depth_at(const profile *it, double x, double y)
 }
 
 /* Adds means over the window of the depth where it is positive, of its square, and of x and of the squared distance
- * from the node times the depth. Points further than `radius` from `lowest`, where it is deepest, bear nothing. */
+ * from the node times the depth. Points farther than `radius` from `lowest` bear nothing. */
 static void sum_window(const double *weights, const profile *it, double lowest, double radius, double *means)
 {
     const double step = POINT_STEP * it->length;
-    const int first = (int)fmax(floor((lowest - radius) / step), -HALF_POINTS);
-    const int last = (int)fmin(ceil((lowest + radius) / step), HALF_POINTS);
+    /* lowest + radius, which may both be large */
+    const double end = 2.0 * it->depth / (it->tilt + sqrt(it->tilt * it->tilt + 2.0 * it->curvature * it->depth));
+    const int first = (int)fmax(floor((2.0 * lowest - end) / step), -HALF_POINTS);
+    const int last = (int)fmax(fmin(ceil(end / step), HALF_POINTS), -HALF_POINTS);
     const int across = it->dimension == 3 ? (int)fmin(ceil(radius / step), HALF_POINTS) : 0;
     for (int b = 0; b <= across; ++b) {
         const double y = b * step;
@@ -118,19 +120,17 @@ static void sum_narrow(const profile *it, double lowest, double radius, double *
 
 static void sum_profile(const double *weights, const profile *it, double *means)
 {
-    const double reach = POINT_STEP * HALF_POINTS * it->length;
-    const double lowest = it->curvature > 0.0 ? -it->tilt / it->curvature : 2.0 * reach;
-    const double bottom = depth_at(it, lowest, 0.0);
-    const double radius = bottom > 0.0 && it->curvature > 0.0 ? sqrt(2.0 * bottom / it->curvature) : 0.0;
+    const bool is_flat = !(it->curvature > 0.0);
+    const double lowest = is_flat ? -INFINITY : -it->tilt / it->curvature;
+    const double bottom = is_flat ? INFINITY : depth_at(it, lowest, 0.0);
+    const double radius = is_flat ? INFINITY : sqrt(mor_max(2.0 * bottom / it->curvature, 0.0));
     means[0] = means[1] = means[2] = means[3] = 0.0;
-    if (it->curvature > 0.0 && (bottom <= 0.0 || fabs(lowest) - radius > reach)) {
-        return;
-    }
-    if (it->curvature > 0.0 && radius < NARROW * POINT_STEP * it->length) {
+    const bool reaches = bottom > 0.0 && (is_flat || fabs(lowest) - radius <= POINT_STEP * HALF_POINTS * it->length);
+    if (reaches && radius < NARROW * POINT_STEP * it->length) {
         sum_narrow(it, lowest, radius, means);
-        return;
+    } else if (reaches) {
+        sum_window(weights, it, lowest, radius, means);
     }
-    sum_window(weights, it, lowest, it->curvature > 0.0 ? radius : INFINITY, means);
 }
 
 /* The bottom of a ball lies below a node beside it by at most the square of the reach of a window over twice its

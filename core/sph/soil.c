@@ -91,7 +91,7 @@ static const mor_stage soil_stages[] = {
      "decides which soil at rest is left out of this step, when switched on", mor_soil_may_sleep},
     {"pack", mor_soil_pack,
      BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | BIT(HOURGLASS) | BIT(MEAN_STRESS) |
-         BIT(FLOW) | BIT(SPIN_STRESS) | SHARED(STATE),
+         BIT(FLOW) | BIT(SPIN_STRESS) | SHARED(STATE) | SHARED(LISTS),
      SHARED(RECORDS), 0, "packs one record per particle for the pair loops", NULL},
     {"wall sums", mor_soil_sum_walls, SHARED(RECORDS) | SHARED(LISTS) | SHARED(BOUNDARIES), SHARED(WALL_SUMS), 0,
      "kernel sums over walls and rocks in reach", NULL},

@@ -127,6 +127,7 @@ typedef struct mor_soil_wall_sums {
     int n_sums;          /* from that one on, 1 */
     const double *scale; /* shape [n_particles]; factor on the sums of each particle, any unit; NULL: 1 */
     bool of_walls_only;  /* not of rocks */
+    bool of_awake_only;  /* not for soil that sleeps */
 } mor_soil_wall_sums;
 
 /** Adds sums over walls and rocks to a field: out[i, a] += scale[i] * sum a of particle i.
@@ -155,7 +156,8 @@ static inline double mor_soil_moment_cofactors(const double *moment, int dimensi
     return mor_symmetric_cofactors(solid, cofactors);
 }
 
-/** Copies moments of the particles of clusters that list a boundary; those of others are read where they are.
+/** Copies moments of the particles of clusters that list a boundary and are awake; those of others that are awake are
+ *  read where they are.
  *  @param moments   [in]   shape [n_particles padded to 8, 6], unit 1
  *  @param closed    [out]  same shape; the copy
  *  @param continued [out]  same shape; zero for the same particles; NULL: not wanted */

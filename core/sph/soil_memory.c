@@ -47,9 +47,9 @@ static void run_memory(mor_context *context, const mor_soil *soil, const mor_soi
 /* Adds the moments over walls. */
 static void add_walls(mor_context *context, mor_soil *soil, mor_view *view, double *closed)
 {
-    mor_soil_add_wall_sums(
-        context, soil, view,
-        &(mor_soil_wall_sums){.first_sum = MOR_KERNEL_SUM_MOMENT, .n_sums = 6, .of_walls_only = true}, closed);
+    const mor_soil_wall_sums sums = {
+        .first_sum = MOR_KERNEL_SUM_MOMENT, .n_sums = 6, .of_walls_only = true, .of_awake_only = true};
+    mor_soil_add_wall_sums(context, soil, view, &sums, closed);
 }
 
 static void add_moments(void *closed, int64_t i, const double *sums)
@@ -88,7 +88,7 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
     return MOR_OK;
 }
 
-/* Moments over the soil and over walls; those of clusters that list none are not copied. */
+/* Moments over the soil and over walls; those of clusters that list none, or sleep, are not copied. */
 static const double *close_moments(mor_context *context, mor_soil *soil, mor_view *view)
 {
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);

@@ -150,6 +150,7 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
                    .mass = mor_view_read(view, MOR_FIELD_MASS),
                    .wrap = soil->images.wrap,
                    .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records)};
+    mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.changing);
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
     const mor_blocks blocks = mor_soil_blocks(soil, GRAIN, 4);
     const int64_t chunk = mor_reduce_status(&blocks, context->n_threads, pack_range, &job, soil->room.statuses);

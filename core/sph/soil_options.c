@@ -49,7 +49,9 @@ void mor_soil_add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view
             continue;
         }
         MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, CLUSTERS) {
-            for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+            const int32_t cluster = contact->relation.occupied[place];
+            const bool is_left = what->of_awake_only && mor_sleep_is(contact->sleep, cluster, MOR_SLEEP_ASLEEP);
+            for (int64_t slot = contact->first_slot[place]; !is_left && slot < contact->first_slot[place + 1]; ++slot) {
                 const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
                 for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n_particles; ++lane) {
                     const double *sums =

@@ -250,8 +250,8 @@ mor_status mor_soil_sleep(mor_context *context, void *owner, mor_view *view, con
                               .reach = MOR_KERNEL_SUPPORT * soil->smoothing_length,
                               .moving = soil->moving};
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
-    /* While gravity grows all soil is loaded, but what is not released stands. */
-    if (mor_soil_gravity_part(soil, step) < 1.0 || soil->is_relaxing) {
+    /* While gravity grows and while it settles all soil is loaded, but what is not released stands. */
+    if (mor_soil_gravity_part(soil, step) < 1.0 || soil->is_relaxing || soil->is_settling) {
         decision.quiet_time = NULL;
     }
     if (decision.held == NULL && decision.quiet_time == NULL) {
@@ -314,7 +314,7 @@ mor_status mor_soil_find_quiet(mor_context *context, void *owner, mor_view *view
     const mor_quiet_limits limits = find_limits(soil);
     const mor_quiet_job job = {.n_particles = soil->set.n_particles,
                                .length = step->length,
-                               .is_none = soil->is_relaxing,
+                               .is_none = soil->is_relaxing || soil->is_settling,
                                .states = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->sleep.states),
                                .position = mor_view_read(view, MOR_FIELD_POSITION),
                                .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),

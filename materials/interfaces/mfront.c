@@ -40,7 +40,7 @@ typedef struct record {
 /* 1: done; 0: done, but not to be relied on; -1: failed. */
 typedef int (*mfront_function)(record *data);
 
-/* Everything that is handed out. Bands of known numbers stand between the arrays. */
+/* Everything that is handed out. Bands of not-a-numbers stand between the arrays. */
 typedef struct arguments {
     mfront_function function;
     record data;

@@ -23,7 +23,7 @@ typedef void (*umat_function)(double *stress, double *statev, double *ddsdde, do
                               const int *npt, const int *layer, const int *kspt, const int *jstep, const int *kinc,
                               size_t cmname_letters);
 
-/* Everything that is handed out by reference. Bands of known numbers stand between the arrays, which a law may take to
+/* Everything that is handed out by reference. Bands of not-a-numbers stand between the arrays, which a law may take to
  * be longer. */
 typedef struct arguments {
     umat_function function;

@@ -264,19 +264,30 @@ static void case_that_asks_for_what_there_is_not_is_refused(void **state)
     }
 }
 
+/* What lies behind PROPS is not a number. */
+static void law_that_computes_with_a_constant_that_is_not_given_is_refused(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    fortran_compile(folder, "umat_elastic", path);
+    static const char *const laws[] = {"library = './umat_elastic.so';",
+                                       "library = './umat_elastic.so'; props = (1e6);"};
+    for (int k = 0; k < 2; ++k) {
+        write_case(folder, laws[k]);
+        program_outcome outcome = program_run(folder, (const char *const[]){"check", "case.cfg", NULL}, 2);
+        program_expect_text(outcome.errors, "parameters that 'umat' refuses");
+        program_clear(&outcome);
+    }
+}
+
 /* Without its constants even a sound law may crash, and its complaint would hide the misspelled name. */
 static void law_is_not_tried_while_a_name_of_its_case_is_unknown(void **state)
 {
     run_folder *folder = *state;
-    static const char *const check[] = {"check", "case.cfg", NULL};
     char path[MOR_PATH_BYTES];
     fortran_compile(folder, "umat_elastic", path);
-    write_case(folder, "library = './umat_elastic.so';");
-    program_outcome outcome = program_run(folder, check, 2);
-    program_expect_text(outcome.errors, "parameters that 'umat' refuses");
-    program_clear(&outcome);
     write_case(folder, "library = './umat_elastic.so'; prop = (1e6, 0.3);");
-    outcome = program_run(folder, check, 2);
+    program_outcome outcome = program_run(folder, (const char *const[]){"check", "case.cfg", NULL}, 2);
     program_expect_text(outcome.errors, "did you mean 'props'");
     assert_null(strstr(outcome.errors, "refuses"));
     program_clear(&outcome);
@@ -315,6 +326,7 @@ int main(void)
         UMAT_TEST(material_of_a_case_is_checked_with_its_parameters),
         UMAT_TEST(law_too_soft_for_its_weight_is_warned_of),
         UMAT_TEST(case_that_asks_for_what_there_is_not_is_refused),
+        UMAT_TEST(law_that_computes_with_a_constant_that_is_not_given_is_refused),
         UMAT_TEST(law_is_not_tried_while_a_name_of_its_case_is_unknown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -40,7 +40,8 @@ void mor_simulation_pose_wall(const mor_case *the_case, int wall, const mor_moti
 
 /** Least distance of points from a wall where it is at a time, unit m; infinite without points.
  *  @param positions [in]  shape [n, 3], unit m
- *  @param n         [in]  number of points */
+ *  @param n         [in]  number of points
+ *  Threads: safe to call concurrently. */
 double mor_simulation_wall_gap(const struct mor_simulation *simulation, int wall, double time, const double *positions,
                                int64_t n);
 

@@ -14,16 +14,15 @@
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
 
-/* Principal values of the faces seen, their sum being 1, that tell a direction in which several bear: below ALIKE they
- * are taken for one, from MEET (33 degrees) on for two. Down to a quarter of these, edges and corners close to the
- * ripple of the lattice; at twice an edge misses 7 %. */
-#define ALIKE MOR_FACES_ALIKE
+/* Principal values of the faces seen, their sum being 1, that tell a direction in which several bear: below
+ * MOR_FACES_ALIKE they are taken for one, from MEET (33 degrees) on for two. Down to a quarter of these, edges and
+ * corners close to the ripple of the lattice; at twice an edge misses 7 %. */
 #define MEET 0.08
 
 /* How far a direction is one of the faces seen; share: principal value of a sum of 1. */
 static double fade(double share)
 {
-    return mor_min(mor_max((share - ALIKE) / (MEET - ALIKE), 0.0), 1.0);
+    return mor_min(mor_max((share - MOR_FACES_ALIKE) / (MEET - MOR_FACES_ALIKE), 0.0), 1.0);
 }
 
 /* Principal directions of the faces seen: values, axes in columns, and how far faces bear in each, 0 to 1. */
@@ -38,10 +37,11 @@ static void find_bearing(const double *faces, const mor_face_normals *found, int
     const double trace = mor_symmetric_trace(faces);
     if (found->has_axes[lane] == 0) {
         mor_symmetric_eigen(faces, b->values, b->axes);
-    }
-    for (int k = 0; k < 9 && found->has_axes[lane] != 0; ++k) {
-        b->values[k / 3] = found->values[k / 3][lane];
-        b->axes[k] = found->axes[k][lane];
+    } else {
+        for (int k = 0; k < 9; ++k) {
+            b->values[k / 3] = found->values[k / 3][lane];
+            b->axes[k] = found->axes[k][lane];
+        }
     }
     const double largest = mor_max(mor_max(b->values[0], b->values[1]), b->values[2]);
     for (int k = 0; k < 3; ++k) {

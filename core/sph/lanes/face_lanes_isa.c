@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* What is left of the faces that particles see. Compiled once per instruction set; MOR_ISA is its name. Principal values
- * and directions are those of core/base/eigen.h to the last bit. */
+/* What is left of the faces that particles see. Compiled once per instruction set; MOR_ISA is its name. Principal
+ * values and directions are those of core/base/eigen.h to the last bit. */
 #include "core/base/eigen.h"
 #include "core/sph/lanes/soil_lanes.h"
 #include "core/sph/pair/lane_math.h"
@@ -86,7 +86,7 @@ INLINE void square_tensor(vec *t)
 /* The direction that is left where faces count as one; returns its principal value. Costs less than all three. */
 INLINE vec find_one_normal(const vec *f, vec trace, vec *normal)
 {
-    const vec scale = 1.0 / trace;
+    const vec scale = 1.0 / select_lanes(trace > 0.0, trace, broadcast(1.0));
     vec power[6];
     vec next[3];
     for (int a = 0; a < 6; ++a) {
@@ -156,7 +156,7 @@ INLINE void split_deviator(const vec *b, vec *values, vec *axes)
     values[2] = select_lanes(rotates, s * (s * uu + c * uv) + c * (s * uv + c * vv), vv);
     for (int a = 0; a < 3; ++a) {
         axes[3 * a] = n[a];
-        axes[3 * a + 1] = c * u[a] + -s * v[a];
+        axes[3 * a + 1] = c * u[a] + select_lanes(rotates, -s, broadcast(0.0)) * v[a];
         axes[3 * a + 2] = s * u[a] + c * v[a];
     }
 }
@@ -172,8 +172,9 @@ INLINE mask split_faces(const vec *f, vec *values, vec *axes)
         b[a] = f[a] - (a < 3 ? mean : broadcast(0.0));
         size = larger(size, absolute(b[a]));
     }
+    const vec divisor = select_lanes(size > 0.0, size, broadcast(1.0));
     for (int a = 0; a < 6; ++a) {
-        b[a] /= size;
+        b[a] /= divisor;
     }
     split_deviator(b, values, axes);
     for (int k = 0; k < 3; ++k) {

@@ -64,7 +64,7 @@ typedef struct mor_face_normals {
     int64_t is_one[8];   /* not 0: faces count as one; else the two above are not to be read */
     int64_t is_plane[8]; /* not 0: they are one, but for rounding */
     int64_t has_axes[8]; /* not 0: they are several, of which the next two are there; 0 of several: mor_symmetric_eigen
-                          * finds them, one of them lying across the third axis */
+                          * finds them, one of them lying across the third axis or all values being equal */
     double values[3][8]; /* principal ones, in no order, unit of the faces */
     double axes[9][8];   /* component a of the unit direction of value k at 3 a + k, 1 */
 } mor_face_normals;

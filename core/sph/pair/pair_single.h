@@ -11,8 +11,8 @@
 
 /** @file
  *  Copies in single precision of what the pair loops read, for those in mixed precision. The state stays in double: the
- *  copies are made anew before the sums of momentum, which those of stress differences at boundaries follow, and of the
- *  velocity gradient. Theory: docs/theory/soil.md, mixed precision. */
+ *  copies are made before the sums of momentum, which those of stress differences at boundaries follow; before those of
+ *  the velocity gradient velocities are copied again. Theory: docs/theory/soil.md, mixed precision. */
 
 /** Room for the copies. Owner: the soil solver. Zeroed: none. */
 typedef struct mor_pair_singles {
@@ -30,7 +30,9 @@ typedef struct mor_pair_singles {
  *  opposite places.
  *  @param constants [in]      the smoothing length gives the units
  *  @param images    [in]      of the particles; zeroed: none
- *  @param singles   [in,out]  room, made larger where it does not suffice; what does not change is as in the last step
+ *  @param singles   [in,out]  room, made larger where it does not suffice, and then all is copied; else copies of
+ *                             clusters whose flag in arrays->changing is 0 stay, and with arrays->has_singles all but
+ *                             velocities
  *  @param arrays    [in,out]  their singles are written; NULL in them for what is NULL in arrays, extra
  *                             without accelerations, too
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates only when there are more images than ever before. */

@@ -33,7 +33,9 @@ mor_status mor_sleep_init(mor_context *context, mor_sleep *sleep, int64_t n_part
     MOR_TRY(context, MOR_NEW(context, &sleep->at_bodies, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->changing, n, "states of sleep"));
     MOR_TRY(context, MOR_NEW(context, &sleep->first, n + 1, "neighbors of clusters"));
-    return MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of clusters");
+    MOR_TRY(context, MOR_NEW(context, &sleep->boxes, 6 * n, "boxes of clusters"));
+    memset(sleep->changing, CHANGING, (size_t)n);
+    return MOR_OK;
 }
 
 void mor_sleep_clear(mor_context *context, mor_sleep *sleep)

@@ -34,7 +34,8 @@ typedef struct mor_sleep {
     uint8_t *restless;   /* shape [clusters]; scratch, bit k: particle k of it is not quiet */
     int8_t *deep;        /* shape [clusters]; 1: it and all its neighbors slept in the last step */
     int8_t *at_bodies;   /* shape [clusters]; 1: points of bodies are on its lists */
-    int8_t *changing;    /* shape [clusters]; 0: nothing of it has changed since it was packed in the last step */
+    int8_t *changing;    /* shape [clusters]; 3: it is awake, or lists were built; 2, 1: it sleeps, but is packed; 0:
+                          * nothing of it has changed since it was packed */
     double *boxes;       /* shape [clusters, 6]; minimum and maximum corner of the particles, m */
     int64_t *first;      /* shape [clusters + 1]; of each cluster's neighbors, and one past the last */
     int32_t *neighbors;  /* shape [capacity]; clusters beside each cluster, without itself */
@@ -104,7 +105,7 @@ void mor_sleep_forget_bodies(mor_sleep *sleep);
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies);
 
 /** Decides which clusters sleep in this step.
- *  @param sleep [in,out]  states and n_asleep are set */
+ *  @param sleep [in,out]  states, changing and n_asleep are set */
 void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job);
 
 /** Returns the memory of clusters and of the lists of their neighbors, bytes. */

@@ -160,8 +160,8 @@ mor_status mor_case_reader_material(const mor_case_reader *reader, const mor_cas
     }
     MOR_TRY(reader->context, read_parameters(reader, node, schemas, slot));
     MOR_TRY(reader->context, check_scale(reader, node, model));
-    const bool has_names = reader->mistakes == NULL || reader->mistakes->n == 0; /* else a value may be missing */
-    return has_names ? try_material(reader, node, model, slot) : MOR_OK;
+    const bool is_whole = reader->mistakes == NULL || reader->mistakes->n == 0; /* else a value may be missing */
+    return is_whole ? try_material(reader, node, model, slot) : MOR_OK;
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------------ */
