@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/sph/pair/pair_pack.h"
 
+#include "core/base/parallel.h"
+
 void mor_pair_pack_extra(mor_context *context, const mor_pair_extra_job *job, double *extra)
 {
     const double none[3] = {0.0, 0.0, 0.0};

@@ -3,7 +3,7 @@
 #ifndef MOR_CORE_SPH_PAIR_PAIR_PACK_H
 #define MOR_CORE_SPH_PAIR_PAIR_PACK_H
 
-#include "core/base/parallel.h"
+#include "core/base/context.h"
 #include "core/sph/pair/pair.h"
 
 #include <string.h>
