@@ -159,6 +159,9 @@ static void run_prints_its_results_and_leaves_a_whole_folder_behind(void **state
         if (bytes == NULL || n_bytes == 0) {
             fail_msg("the run left no %s behind", files[k]);
         }
+        if (strcmp(files[k], "log.txt") == 0) { /* which tells how it ended */
+            program_expect_text((const char *)bytes, "info: finished at t = 0.06 s of 0.06 s, step ");
+        }
         free(bytes);
     }
     finished_run_file(folder, path, "runs/heap", "summary.json");

@@ -139,6 +139,7 @@ typedef struct mor_command_info {
     const char *text;                               /* what it does, in a line */
     const char *details;                            /* more, in sentences */
     unsigned options;                               /* mask of those it takes, bit by mor_command_option_kind */
+    const char *folder;                             /* where results go without -o; NULL: it does not take it */
     const char *examples[MOR_COMMAND_EXAMPLES_MAX]; /* as typed; shorter lists end with NULL */
     mor_command_code codes[MOR_COMMAND_CODES_MAX];  /* shorter lists end with text NULL */
     /** Does it: prints results to command->output.

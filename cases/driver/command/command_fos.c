@@ -63,6 +63,7 @@ const mor_command_info mor_command_fos = {
                "Compare three spacings, by --spacings.",
     .options = MOR_OPTION_BITS_CASE | MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(LOWER) | MOR_OPTION_BIT(UPPER) |
                MOR_OPTION_BIT(TOLERANCE) | MOR_OPTION_BIT(SPACINGS) | MOR_OPTION_BIT(HEIGHT),
+    .folder = "runs/NAME-fos, NAME that of the case",
     .examples = {"moraine fos cases/slope-griffiths/case.cfg -o runs/slope-fos",
                  "moraine fos case.cfg --spacings '1 m, 0.5 m, 0.25 m'",
                  "moraine fos case.cfg --lower 0.9 --upper 1.3"},

@@ -38,13 +38,20 @@ static void label_option(const mor_command_option *option, char *label)
              option->value != NULL ? option->value : "");
 }
 
-static void print_option(FILE *out, const mor_command_option *option, bool has_standard)
+/* What holds for a command without an option; NULL: nothing to say. */
+static const char *find_standard(const mor_command_info *info, int kind)
+{
+    return kind == MOR_OPTION_OUTPUT ? info->folder : mor_command_options[kind].standard;
+}
+
+/* standard: what holds without it; NULL: not said. */
+static void print_option(FILE *out, const mor_command_option *option, const char *standard)
 {
     char label[LABEL_BYTES];
     char text[512];
-    const bool is_said = has_standard && option->standard != NULL;
+    const bool is_said = standard != NULL;
     label_option(option, label);
-    snprintf(text, sizeof text, "%s%s%s%s", option->text, is_said ? " (default: " : "", is_said ? option->standard : "",
+    snprintf(text, sizeof text, "%s%s%s%s", option->text, is_said ? " (default: " : "", is_said ? standard : "",
              is_said ? ")" : "");
     print_entry(out, label, text);
 }
@@ -72,7 +79,7 @@ void mor_command_print_usage(const mor_command_info *const *table, FILE *out)
     }
     fprintf(out, "\nOptions\n");
     for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
-        print_option(out, &mor_command_options[k], false);
+        print_option(out, &mor_command_options[k], NULL);
     }
     fprintf(out, "\nExit codes of moraine run\n");
     for (int k = 0; k < count_codes(table[0]); ++k) {
@@ -90,7 +97,7 @@ void mor_command_print_help(const mor_command_info *info, FILE *out)
     fprintf(out, "\nOptions\n");
     for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
         if (mor_command_takes(info, (mor_command_option_kind)k)) {
-            print_option(out, &mor_command_options[k], true);
+            print_option(out, &mor_command_options[k], find_standard(info, k));
         }
     }
     fprintf(out, "\nExamples\n");
@@ -133,14 +140,14 @@ static void print_roff_line(FILE *out, const char *request, const char *text)
     fputc('\n', out);
 }
 
-static void print_man_option(FILE *out, const mor_command_option *option, bool has_standard)
+static void print_man_option(FILE *out, const mor_command_option *option, const char *standard)
 {
     char label[LABEL_BYTES];
     label_option(option, label);
     print_roff_line(out, ".TP\n.B ", label + strspn(label, " "));
     print_roff_line(out, "", option->text);
-    if (has_standard && option->standard != NULL) {
-        print_roff_line(out, "Default: ", option->standard);
+    if (standard != NULL) {
+        print_roff_line(out, "Default: ", standard);
     }
 }
 
@@ -153,7 +160,7 @@ static void print_man_command(FILE *out, const mor_command_info *info)
     print_roff_line(out, ".PP\n", info->details);
     for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
         if (mor_command_takes(info, (mor_command_option_kind)k)) {
-            print_man_option(out, &mor_command_options[k], true);
+            print_man_option(out, &mor_command_options[k], find_standard(info, k));
         }
     }
     fprintf(out, ".PP\nExit codes:\n");
@@ -178,7 +185,7 @@ void mor_command_print_man(const mor_command_info *const *table, FILE *out)
             "for ParaView.\n.SH OPTIONS\nWhich command takes which is said with the commands.\n",
             mor_version());
     for (int k = 0; k < MOR_OPTION_COUNT; ++k) {
-        print_man_option(out, &mor_command_options[k], false);
+        print_man_option(out, &mor_command_options[k], NULL);
     }
     fprintf(out, ".SH COMMANDS\n");
     for (int c = 0; table[c] != NULL; ++c) {

@@ -22,6 +22,7 @@ const mor_command_info mor_command_maps = {
         "same cells. Runs without the map, which failed or go on, are left out and named. Writes the share of the runs "
         "in percent and the ends of its 95 % interval into maps/, and a picture into images/.",
     .options = MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(MAP) | MOR_OPTION_BIT(VALUE) | MOR_OPTION_BIT(HELP),
+    .folder = "RUNS",
     .examples = {"moraine maps runs/friction --value '0.5 m'", "moraine maps runs/study --map deposit --value '0.2 m'",
                  "moraine maps runs/friction --map arrival --value '30 s' -o runs/friction-30s"},
     .codes = {MOR_COMMAND_CODES_COMMON},

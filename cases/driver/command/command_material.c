@@ -22,6 +22,7 @@ const mor_command_info mor_command_material = {
     .options = MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(SET) | MOR_OPTION_BIT(PLUGIN) | MOR_OPTION_BIT(PATH) |
                MOR_OPTION_BIT(STRESS) | MOR_OPTION_BIT(STRAIN) | MOR_OPTION_BIT(CASE) | MOR_OPTION_BIT(SOIL) |
                MOR_OPTION_BIT(DATA) | MOR_OPTION_BIT(REPLAY) | MOR_OPTION_BIT(HELP),
+    .folder = "runs/material-NAME, NAME that of the soil or the model",
     .examples = {"moraine material drucker_prager --path triaxial-compression --stress '50 kPa, 100 kPa' -s "
                  "youngs_modulus='10 MPa' -s poissons_ratio=0.3 -s friction_angle='30 deg'",
                  "moraine material --case cases/column-3d/case.cfg --path oedometer --data measured.csv",

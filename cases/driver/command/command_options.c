@@ -4,11 +4,8 @@
 
 /* The one list of options. */
 const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
-    [MOR_OPTION_OUTPUT] =
-        {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
-         "run: runs/NAME; sweep: runs/NAME-sweep; fos: runs/NAME-fos; preview: runs/NAME-preview; relax: "
-         "runs/relax-NAME; material: "
-         "runs/material-NAME, of the soil or the model; maps: RUNS"},
+    [MOR_OPTION_OUTPUT] = {"output", 'o', "DIR", MOR_WORD_FOLDER, "folder that results go into",
+                           NULL}, /* each command has its own */
     [MOR_OPTION_THREADS] = {"threads", 't', "N", MOR_WORD_NONE,
                             "threads, of a sweep members at once; results do not depend on their number",
                             "as many as the machine has cores"},

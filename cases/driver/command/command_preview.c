@@ -18,6 +18,7 @@ const mor_command_info mor_command_preview = {.name = "preview",
                                               .details =
                                                   "Writes one snapshot and its picture into a folder of its own.",
                                               .options = MOR_OPTION_BITS_CASE | MOR_OPTION_BIT(OUTPUT),
+                                              .folder = "runs/NAME-preview, NAME that of the case",
                                               .examples = {"moraine preview case.cfg -o runs/column-preview"},
                                               .codes = {MOR_COMMAND_CODES_COMMON},
                                               .run = preview};

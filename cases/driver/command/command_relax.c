@@ -96,6 +96,7 @@ const mor_command_info mor_command_relax = {
                "particles are. At most one of --diameter, --length and --volume.",
     .options = MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(THREADS) | MOR_OPTION_BIT(SPACING) | MOR_OPTION_BIT(DIAMETER) |
                MOR_OPTION_BIT(LENGTH) | MOR_OPTION_BIT(VOLUME) | MOR_OPTION_BIT(HELP),
+    .folder = "runs/relax-NAME, NAME that of the file",
     .examples = {"moraine relax rock.obj --spacing '5 cm' --diameter '1.2 m'"},
     .codes = {MOR_COMMAND_CODES_COMMON},
     .run = relax};

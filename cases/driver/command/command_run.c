@@ -48,6 +48,7 @@ const mor_command_info mor_command_run = {
         "Reads the case, builds it, computes it to its end and writes pictures, charts, series.csv, summary.json, "
         "snapshots for ParaView and checkpoints. Ctrl-C or SIGTERM stops it with a checkpoint; a second one at once.",
     .options = MOR_OPTION_BITS_CASE | MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(RESUME) | MOR_OPTION_BIT(STOP_AT),
+    .folder = "runs/NAME, NAME that of the case",
     .examples = {"moraine run cases/column-3d/case.cfg -o runs/column",
                  "moraine run case.cfg --set spacing='5 mm' -t 4", "moraine run case.cfg -o runs/column --resume"},
     .codes = {MOR_COMMAND_CODES_COMMON,

@@ -55,6 +55,7 @@ const mor_command_info mor_command_sweep = {
         "with "
         "checkpoints.",
     .options = MOR_OPTION_BITS_CASE | MOR_OPTION_BIT(OUTPUT) | MOR_OPTION_BIT(RESUME) | MOR_OPTION_BIT(PLAN),
+    .folder = "runs/NAME-sweep, NAME that of the file",
     .examples =
         {"moraine sweep cases/srm-slope/sweep.cfg --plan",
          "moraine sweep cases/srm-slope/sweep.cfg -o runs/contents -t 8 --set 'soil[0].material.cohesion=10 kPa'",

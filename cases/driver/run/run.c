@@ -328,6 +328,20 @@ static void print_end(const mor_run_files *files, const loop_state *p, double sp
     }
 }
 
+/* The last line of the log of a run that went well. */
+static void log_end(mor_context *context, const mor_simulation *s, const loop_state *p, const mor_run_outcome *outcome)
+{
+    char missed[64] = "";
+    if (outcome->is_finished && s->the_case->n_expectations > 0) {
+        snprintf(missed, sizeof missed, "; %d of %d expectations missed", outcome->n_missed,
+                 s->the_case->n_expectations);
+    }
+    mor_context_log(context, MOR_LOG_INFO, "%s at t = %.6g s of %.6g s, step %llu, %llu of them in the last %.0f s%s",
+                    outcome->is_finished ? "finished" : "stopped", mor_schedule_time(&s->schedule), s->the_case->end,
+                    (unsigned long long)s->schedule.n_steps, (unsigned long long)p->n_loop_steps, p->loop_seconds,
+                    missed);
+}
+
 static mor_status finish_run(mor_context *context, mor_run_files *files, const loop_state *p, mor_run_outcome *outcome)
 {
     const mor_simulation *s = files->simulation;
@@ -345,6 +359,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
         outcome->is_interrupted = mor_stop_is_requested(options->stop);
         fprintf(options->output, "stopped at t = %.6g s of %.6g s, step %llu; the run can be resumed\n",
                 mor_schedule_time(&s->schedule), s->the_case->end, (unsigned long long)s->schedule.n_steps);
+        log_end(context, s, p, outcome);
         return MOR_OK;
     }
     print_end(files, p, speed);
@@ -354,6 +369,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     warn_of_motion(context, s);
     MOR_TRY(context, warn_of_energy(context, s));
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
+    log_end(context, s, p, outcome);
     fflush(options->output); /* a signal may end the program while it draws */
     if (mor_stop_is_requested(options->stop)) {
         fprintf(options->output, "the run is complete; its pictures are not drawn\n");

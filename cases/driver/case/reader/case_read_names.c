@@ -27,16 +27,20 @@ static void join_words(const char *const *words, int n_words, char *text, size_t
     }
 }
 
-/* The advice where no word is near. */
-static const char no_nearest[] = "use one of these";
-
-static void advise_word(const char *word, const char *const *words, int n_words, char *text, size_t text_bytes)
+/* Of the words the one nearest to another, or NULL when none is near. */
+static const char *nearest_word(const char *word, const char *const *words, int n_words)
 {
     const int nearest = mor_nearest_find(word, words, n_words);
-    if (nearest >= 0) {
-        snprintf(text, text_bytes, "did you mean '%s'?", words[nearest]);
+    return nearest >= 0 ? words[nearest] : NULL;
+}
+
+/* Proposes a word, or says something else when there is none. */
+static void propose_word(const char *meant, const char *otherwise, char *text, size_t text_bytes)
+{
+    if (meant != NULL) {
+        snprintf(text, text_bytes, "did you mean '%s'?", meant);
     } else {
-        snprintf(text, text_bytes, "%s", no_nearest);
+        snprintf(text, text_bytes, "%s", otherwise);
     }
 }
 
@@ -83,20 +87,26 @@ static bool is_former(const char *word, const mor_case_group *group)
     return false;
 }
 
-/* Keeps the mistake that the last error is about, and forgets that error. */
-static void keep_mistake(const mor_case_reader *reader, const mor_case_node *node, const char *path, const char *advice)
+/* Keeps the mistake that the last error is about, and forgets that error.
+ * group: that has the name; meant: the name that was proposed, or NULL. */
+static void keep_mistake(const mor_case_reader *reader, const mor_case_node *group, const mor_case_node *node,
+                         const char *path, const char *meant)
 {
     mor_case_mistakes *mistakes = reader->mistakes;
+    if (meant != NULL && mistakes->n_proposals < MOR_CASE_PROPOSALS_MAX) {
+        mistakes->proposals[mistakes->n_proposals++] = (mor_case_proposal){.group = group, .name = meant};
+    }
     if (mistakes->n++ == 0) {
         mistakes->first = *reader->context;
     } else {
         char place[MOR_CASE_NODE_TEXT_BYTES];
+        char advice[MOR_CASE_NODE_TEXT_BYTES];
         const size_t used = strlen(mistakes->others);
         const size_t room = sizeof mistakes->others - used;
         mor_case_node_place(node, place, sizeof place);
-        const int n =
-            snprintf(mistakes->others + used, room, "\n%s: found '%.80s' in %s, unknown, too; %s", place, node->name,
-                     path, strcmp(advice, no_nearest) == 0 ? "'list keys' tells what there is" : advice);
+        propose_word(meant, "'list keys' tells what there is", advice, sizeof advice);
+        const int n = snprintf(mistakes->others + used, room, "\n%s: found '%.80s' in %s, unknown, too; %s", place,
+                               node->name, path, advice);
         if (n < 0 || (size_t)n >= room) {
             mistakes->others[used] = '\0';
             mistakes->n_untold += 1;
@@ -119,18 +129,16 @@ mor_status mor_case_reader_names(const mor_case_reader *reader, const mor_case_n
         char advice[MOR_CASE_NODE_TEXT_BYTES];
         mor_case_node_path(node, path, sizeof path);
         join_words(names, n_names, allowed, sizeof allowed);
-        advise_word(child->name, names, n_names, advice, sizeof advice);
         const int entry = more == NULL ? -1 : mor_params_find_symbol(more, child->name);
-        if (entry >= 0) {
-            snprintf(advice, sizeof advice, "did you mean '%s'?", more[entry].key);
-        }
+        const char *meant = entry >= 0 ? more[entry].key : nearest_word(child->name, names, n_names);
+        propose_word(meant, "use one of these", advice, sizeof advice);
         const mor_status status =
             MOR_CASE_NODE_FAIL(reader->context, child, "found the unknown name '%.80s' in %s; allowed: %s; %s",
                                child->name, path, allowed, advice);
         if (reader->mistakes == NULL) {
             return status;
         }
-        keep_mistake(reader, child, path, advice);
+        keep_mistake(reader, node, child, path, meant);
     }
     return MOR_OK;
 }
@@ -143,7 +151,7 @@ mor_status mor_case_reader_finish(const mor_case_reader *reader, mor_status stat
     if (mistakes == NULL || mistakes->n == 0) {
         return status;
     }
-    if (status != MOR_OK) {
+    if (status != MOR_OK && !mistakes->ends_with_misspelled) {
         snprintf(last, sizeof last, "\n%.*s", (int)(sizeof last - 2), reader->context->message);
     }
     if (mistakes->n_untold > 0) {
@@ -156,6 +164,21 @@ mor_status mor_case_reader_finish(const mor_case_reader *reader, mor_status stat
     return MOR_ERROR_CONFIG;
 }
 
+mor_status mor_case_reader_refuse_missing(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                          const char *allowed)
+{
+    char path[MOR_CASE_NODE_TEXT_BYTES];
+    mor_case_mistakes *mistakes = reader->mistakes;
+    for (int k = 0; mistakes != NULL && k < mistakes->n_proposals; ++k) {
+        const mor_case_proposal *proposal = &mistakes->proposals[k];
+        if (proposal->group == group && strcmp(proposal->name, name) == 0) {
+            mistakes->ends_with_misspelled = true;
+        }
+    }
+    mor_case_node_path(group, path, sizeof path);
+    return MOR_CASE_NODE_FAIL(reader->context, group, "found no '%s' in %s; allowed: %s; add it", name, path, allowed);
+}
+
 mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_node *node, const char *what,
                                   const char *const *words, int n_words)
 {
@@ -166,7 +189,8 @@ mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_
     mor_case_node_path(node, path, sizeof path);
     mor_case_node_format(node, found, sizeof found);
     join_words(words, n_words, allowed, sizeof allowed);
-    advise_word(node->kind == MOR_CASE_NODE_TEXT ? node->text : "", words, n_words, advice, sizeof advice);
+    propose_word(nearest_word(node->kind == MOR_CASE_NODE_TEXT ? node->text : "", words, n_words), "use one of these",
+                 advice, sizeof advice);
     return MOR_CASE_NODE_FAIL(reader->context, node, "found %s = %s; allowed: %s (%s); %s", path, found,
                               n_words > 0 ? allowed : "none, there are none yet", what, advice);
 }
@@ -207,10 +231,7 @@ mor_status mor_case_reader_member(const mor_case_reader *reader, const mor_case_
 {
     *child = mor_case_node_find(group, name);
     if (*child == NULL) {
-        char path[MOR_CASE_NODE_TEXT_BYTES];
-        mor_case_node_path(group, path, sizeof path);
-        return MOR_CASE_NODE_FAIL(reader->context, group, "found no '%s' in %s; allowed: %s; add it", name, path,
-                                  name_kind(kind));
+        return mor_case_reader_refuse_missing(reader, group, name, name_kind(kind));
     }
     return check_kind(reader, *child, kind);
 }

@@ -379,13 +379,12 @@ mor_status mor_case_reader_group(const mor_case_reader *reader, const mor_case_n
             MOR_TRY(reader->context, read_key(reader, child, key, member));
             written |= (uint64_t)1 << k;
         } else if (key->schema.is_required) {
-            char path[PATH_BYTES];
-            char allowed[ALLOWED_BYTES];
+            char range[ALLOWED_BYTES];
+            char allowed[MOR_CONTEXT_MESSAGE_BYTES];
             const mor_schema schema = mor_case_key_schema(key, reader->dimension);
-            mor_case_node_path(node, path, sizeof path);
-            describe_allowed(reader, &schema, allowed, sizeof allowed);
-            return MOR_CASE_NODE_FAIL(reader->context, node, "found no '%s' in %s; allowed: %s (%s); add it",
-                                      key->schema.key, path, allowed, key->schema.text);
+            describe_allowed(reader, &schema, range, sizeof range);
+            snprintf(allowed, sizeof allowed, "%s (%s)", range, key->schema.text);
+            return mor_case_reader_refuse_missing(reader, node, key->schema.key, allowed);
         } else {
             MOR_TRY(reader->context, store_default(reader, key, member));
         }

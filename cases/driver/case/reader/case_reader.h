@@ -11,14 +11,23 @@
  *  Values, names, shapes and files that the sections of a case are made of. Every error names the place in the file,
  *  what was found, what is allowed and what to do, and is MOR_ERROR_CONFIG. */
 
-enum { MOR_CASE_MISTAKES_BYTES = 512 };
+enum { MOR_CASE_MISTAKES_BYTES = 512, MOR_CASE_PROPOSALS_MAX = 16 };
+
+/** A name that was proposed for one that a group does not have. Borrowed. */
+typedef struct mor_case_proposal {
+    const mor_case_node *group; /* with the name that is unknown */
+    const char *name;           /* zero-terminated; a key of the group */
+} mor_case_proposal;
 
 /** Names that no group has: they are told together, for nothing else depends on them. Zero-initialized before use. */
 typedef struct mor_case_mistakes {
     mor_context first;                    /* the error about the first of them */
     char others[MOR_CASE_MISTAKES_BYTES]; /* zero-terminated; a line about each of the others, a newline before each */
     int n;
-    int n_untold; /* of them, for which others had no room */
+    int n_untold;                                        /* of them, for which others had no room */
+    mor_case_proposal proposals[MOR_CASE_PROPOSALS_MAX]; /* shape [n_proposals]; for the first of them */
+    int n_proposals;
+    bool ends_with_misspelled; /* what ended the reading is that one of them is missing */
 } mor_case_mistakes;
 
 /** State shared by all parts. */
@@ -98,6 +107,14 @@ mor_status mor_case_reader_list(const mor_case_reader *reader, const mor_case_no
  *  Returns: MOR_ERROR_CONFIG. */
 mor_status mor_case_reader_refuse(const mor_case_reader *reader, const mor_case_node *node, const char *what,
                                   const char *const *words, int n_words);
+
+/** Refuses a group for what it lacks. Not told when it is there under a misspelled name, which is.
+ *  @param group   [in]  that lacks it
+ *  @param name    [in]  zero-terminated; what it lacks
+ *  @param allowed [in]  zero-terminated; what may be written
+ *  Returns: MOR_ERROR_CONFIG. */
+mor_status mor_case_reader_refuse_missing(const mor_case_reader *reader, const mor_case_node *group, const char *name,
+                                          const char *allowed);
 
 /** Notes where a setting was written. */
 void mor_case_reader_place(const mor_case_node *node, mor_case_place *place);

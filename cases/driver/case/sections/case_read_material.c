@@ -78,12 +78,11 @@ static mor_status default_parameter(const mor_case_reader *reader, const mor_cas
                                     double *values)
 {
     if (schema->is_required) {
-        char path[MOR_CASE_NODE_TEXT_BYTES];
-        char allowed[MOR_CASE_NODE_TEXT_BYTES];
-        mor_case_node_path(node, path, sizeof path);
-        mor_params_range(schema, allowed, sizeof allowed);
-        return MOR_CASE_NODE_FAIL(reader->context, node, "found no '%s' in %s; allowed: %s (%s); add it", schema->key,
-                                  path, allowed, schema->text);
+        char range[MOR_CASE_NODE_TEXT_BYTES];
+        char allowed[MOR_CONTEXT_MESSAGE_BYTES];
+        mor_params_range(schema, range, sizeof range);
+        snprintf(allowed, sizeof allowed, "%s (%s)", range, schema->text);
+        return mor_case_reader_refuse_missing(reader, node, schema->key, allowed);
     }
     for (int a = 0; a < schema->n_components; ++a) {
         values[a] = schema->kind == MOR_SCHEMA_CHOICE ? 0.0 : schema->default_value;

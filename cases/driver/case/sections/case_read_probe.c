@@ -63,8 +63,9 @@ static mor_status check_special_keys(const mor_case_reader *reader, const mor_ca
                                       key, type->name, allowed);
         }
         if (child == NULL && (required >> k & 1U) != 0) {
-            return MOR_CASE_NODE_FAIL(reader->context, node,
-                                      "found no '%s' in a probe of type '%s'; allowed: one; add it", key, type->name);
+            char allowed[MOR_CASE_NODE_TEXT_BYTES];
+            snprintf(allowed, sizeof allowed, "one in a probe of type '%s'", type->name);
+            return mor_case_reader_refuse_missing(reader, node, key, allowed);
         }
     }
     return MOR_OK;

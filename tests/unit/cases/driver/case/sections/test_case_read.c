@@ -234,7 +234,8 @@ static void what_belongs_together_is_demanded_together(void **state)
         const char *setting;
         const char *fragment;
     } rows[] = {{"probes[2].direction=(0, 0, 0)", "a direction of length zero"},
-                {"probes=( { type = \"momentum\"; } )", "found no 'direction' in a probe of type 'momentum'"},
+                {"probes=( { type = \"momentum\"; } )",
+                 "found no 'direction' in probes[0]; allowed: one in a probe of type 'momentum'"},
                 {"probes=( { type = \"run_out\"; radial = true; direction = (1, 0, 0); } )", "with radial = false"},
                 {"probes=( { type = \"run_out\"; measure = \"thickness\"; percentile = 50; } )", "\"mass_percentile\""},
                 {"probes=( { type = \"mass\"; percentile = 50; } )", "no effect on a probe of type 'mass'"},
@@ -289,6 +290,22 @@ static void names_that_are_unknown_are_told_together(void **state)
     case_reading_refuse(f, full_text, settings, "override 'numerics.corant=0.4'", parts[2]);
     case_reading_refuse(f, full_text, settings, "override 'numerics.corant=0.4'",
                         "\noverride 'walls[1].name=5': found walls[1].name = 5, which is no text");
+}
+
+/* A key that the case must have is not told again as missing when it is there under a name that is misspelled; what is
+ * missing is. */
+static void a_required_name_that_is_misspelled_is_told_once(void **state)
+{
+    static const struct {
+        const char *text;
+        bool is_told;
+    } rows[] = {{"dimension = 2; spacng = 0.1;", false}, {"dimension = 2; seed = 1; colour = 3;", true}};
+    case_reading *f = *state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        case_reading_refuse(f, rows[k].text, (const char *[]){NULL}, "t.cfg:1", "found the unknown name");
+        const char *missing = strstr(f->context.message, "found no ");
+        assert_true((missing != NULL) == rows[k].is_told);
+    }
 }
 
 /* Those for which a message has no room are counted. */
@@ -442,6 +459,7 @@ int main(void)
         cmocka_unit_test(the_unit_of_an_energy_depends_on_the_dimension),
         cmocka_unit_test(what_belongs_together_is_demanded_together),
         cmocka_unit_test(names_that_are_unknown_are_told_together),
+        cmocka_unit_test(a_required_name_that_is_misspelled_is_told_once),
         cmocka_unit_test(many_names_that_are_unknown_are_counted),
         cmocka_unit_test(a_cut_case_is_refused_or_whole_but_never_half_kept),
         cmocka_unit_test(the_scale_multiplies_every_dimensional_value_exactly),
