@@ -52,6 +52,16 @@ static void help_of_a_command_is_its_own(void **state)
             }
         }
         free(options);
+        /* Which folder it writes into, of all commands its own alone. */
+        assert_true(mor_command_takes(info, MOR_OPTION_OUTPUT) == (info->folder != NULL));
+        for (int other = 0; mor_commands[other] != NULL; ++other) {
+            const char *of_other = mor_commands[other]->folder;
+            if (of_other != NULL && strncmp(of_other, "runs/", 5) == 0) {
+                char path[64];
+                snprintf(path, sizeof path, "%.*s,", (int)strcspn(of_other, ","), of_other);
+                assert_true((strstr(text, path) != NULL) == (other == c));
+            }
+        }
         free(text);
     }
 }

@@ -328,7 +328,7 @@ static void print_end(const mor_run_files *files, const loop_state *p, double sp
     }
 }
 
-/* The last line of the log of a run that went well. */
+/* Tells in the log how a run that went well ended. */
 static void log_end(mor_context *context, const mor_simulation *s, const loop_state *p, const mor_run_outcome *outcome)
 {
     char missed[64] = "";
@@ -336,7 +336,8 @@ static void log_end(mor_context *context, const mor_simulation *s, const loop_st
         snprintf(missed, sizeof missed, "; %d of %d expectations missed", outcome->n_missed,
                  s->the_case->n_expectations);
     }
-    mor_context_log(context, MOR_LOG_INFO, "%s at t = %.6g s of %.6g s, step %llu, %llu of them in the last %.0f s%s",
+    mor_context_log(context, MOR_LOG_INFO,
+                    "%s at t = %.6g s of %.6g s, step %llu; %llu steps since the start or resume took %.0f s%s",
                     outcome->is_finished ? "finished" : "stopped", mor_schedule_time(&s->schedule), s->the_case->end,
                     (unsigned long long)s->schedule.n_steps, (unsigned long long)p->n_loop_steps, p->loop_seconds,
                     missed);

@@ -235,7 +235,7 @@ static void what_belongs_together_is_demanded_together(void **state)
         const char *fragment;
     } rows[] = {{"probes[2].direction=(0, 0, 0)", "a direction of length zero"},
                 {"probes=( { type = \"momentum\"; } )",
-                 "found no 'direction' in probes[0]; allowed: one in a probe of type 'momentum'"},
+                 "found no 'direction' in probes[0]; allowed: one, for a probe of type 'momentum' needs it"},
                 {"probes=( { type = \"run_out\"; radial = true; direction = (1, 0, 0); } )", "with radial = false"},
                 {"probes=( { type = \"run_out\"; measure = \"thickness\"; percentile = 50; } )", "\"mass_percentile\""},
                 {"probes=( { type = \"mass\"; percentile = 50; } )", "no effect on a probe of type 'mass'"},
@@ -292,6 +292,12 @@ static void names_that_are_unknown_are_told_together(void **state)
                         "\noverride 'walls[1].name=5': found walls[1].name = 5, which is no text");
 }
 
+#define START "dimension = 2; spacing = 0.1; end = 1.0; gravity = (0, -9.81, 0); "
+#define DOMAIN "domain = { min = (0, 0, -1); max = (1, 1, 1); }; "
+#define SOIL(parameters)                                                                                               \
+    "soil = ( { name = \"s\"; shape = { type = \"box\"; min = (0, 0, -1); max = (0.5, 0.5, 1); }; material = { "       \
+    "model = \"drucker_prager\"; density = 2000; youngs_modulus = 5e6; poissons_ratio = 0.3; " parameters " }; } ); "
+
 /* A key that the case must have is not told again as missing when it is there under a name that is misspelled; what is
  * missing is. */
 static void a_required_name_that_is_misspelled_is_told_once(void **state)
@@ -299,7 +305,18 @@ static void a_required_name_that_is_misspelled_is_told_once(void **state)
     static const struct {
         const char *text;
         bool is_told;
-    } rows[] = {{"dimension = 2; spacng = 0.1;", false}, {"dimension = 2; seed = 1; colour = 3;", true}};
+    } rows[] = {
+        {"dimension = 2; spacng = 0.1;", false},
+        {"dimension = 2; seed = 1; colour = 3;", true},
+        {START "doman = { min = (0, 0, -1); max = (1, 1, 1); };", false}, /* a group */
+        {START DOMAIN SOIL("friction_angle = 0.5;") "walls = ( { name = \"w\"; shpe = { type = \"sphere\"; }; } );",
+         false},
+        {START DOMAIN SOIL("friction_angl = 0.5;"), false}, /* of a law */
+        {START DOMAIN SOIL("friction_angle = 0.5; colour = 3;"), false},
+        {START DOMAIN SOIL("colour = 3;"), true},
+        {START DOMAIN SOIL("friction_angle = 0.5;") "probes = ( { name = \"p\"; type = \"momentum\"; "
+                                                    "directon = (1, 0, 0); } );",
+         false}};
     case_reading *f = *state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
         case_reading_refuse(f, rows[k].text, (const char *[]){NULL}, "t.cfg:1", "found the unknown name");
