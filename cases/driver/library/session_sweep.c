@@ -45,9 +45,23 @@ static mor_status read_sweep(mor_session_sweeper *it, const char *path)
 
 /* ---- Checking ---------------------------------------------------------------------------------------------------- */
 
-static void watch_nothing(void *user)
+/* Nothing is lost when a check is given up. Placing rocks can take minutes for all members. */
+static void watch_checks(void *user)
 {
-    (void)user; /* nothing is lost when a check is given up */
+    mor_session_sweeper *it = user;
+    char line[MOR_RUN_PROGRESS_BYTES];
+    (void)pthread_mutex_lock(&it->lock);
+    if (mor_run_progress_is_due(&it->progress, mor_wall_time())) {
+        snprintf(line, sizeof line, "checked the cases of %d of %d members", it->n_checked, it->design.n_members);
+        mor_run_progress_show(&it->progress, line);
+    }
+    (void)pthread_mutex_unlock(&it->lock);
+}
+
+static void begin_progress(mor_session_sweeper *it)
+{
+    it->progress = (mor_run_progress){
+        .stream = it->session->progress, .is_terminal = it->session->is_terminal, .last = mor_wall_time()};
 }
 
 /* What is wrong, without the value that a member has: a wrong key is wrong with each of them. */
@@ -110,9 +124,12 @@ static mor_status check_members(mor_session_sweeper *it)
     const mor_sweep_jobs jobs = {.n = it->design.n_members,
                                  .n_threads = context->n_threads,
                                  .work = mor_session_sweep_check_member,
-                                 .watch = watch_nothing,
+                                 .watch = watch_checks,
                                  .user = it};
-    MOR_TRY(context, mor_sweep_pool_run(context, &jobs));
+    begin_progress(it);
+    const mor_status status = mor_sweep_pool_run(context, &jobs);
+    mor_run_progress_end(&it->progress);
+    MOR_TRY(context, status);
     mor_sweep_table_count(&it->table, -1, &counts);
     const int n_refused = counts.by_state[MOR_SWEEP_STATE_FAILED];
     if (n_refused > 0) {
@@ -200,8 +217,7 @@ static mor_status run_members(mor_session_sweeper *it)
                         "members run one after another: the HDF5 library is not its thread-safe build");
     }
     it->last_table = mor_wall_time();
-    it->progress =
-        (mor_run_progress){.stream = session->progress, .is_terminal = session->is_terminal, .last = it->last_table};
+    begin_progress(it);
     const mor_status status = mor_sweep_pool_run(&session->context, &jobs);
     mor_run_progress_end(&it->progress);
     return status;

@@ -29,6 +29,7 @@ typedef struct mor_session_sweeper {
     mor_session **running; /* shape [n_members]; NULL: not at work */
     FILE *log, *done;      /* log.txt and the list of members that have ended, open for appending */
     mor_run_progress progress;
+    int n_checked;       /* members whose cases were read */
     double last_table;   /* wall time of the last members.csv, s */
     int n_ended_here;    /* members that have run in this part of the sweep */
     double busy_seconds; /* wall time of these, s */

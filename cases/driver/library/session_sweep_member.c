@@ -93,6 +93,7 @@ void mor_session_sweep_check_member(void *sweeper, int member)
     } else {
         set_failed(it, member, mor_session_message(own));
     }
+    it->n_checked += 1;
     (void)pthread_mutex_unlock(&it->lock);
     mor_session_free(&own);
 }

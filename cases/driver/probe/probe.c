@@ -297,53 +297,6 @@ static mor_status largest_speed(mor_context *context, const view *v, double *val
     return mor_measure_speed(context, &v->points, v->velocity, v->probe->percentile, value);
 }
 
-/* Densities, kg/m3, and what they should be: that of one soil, or what the soil says of each particle; where it has
- * come apart, down to as much less. */
-typedef struct drift_job {
-    const double *density;
-    const mor_soil *soil;
-    const int64_t *index; /* of the densities in the soil; NULL: as they are */
-    double reference;     /* 0: what the soil says */
-} drift_job;
-
-static void fill_drifts(const void *argument, int64_t first, int64_t n, double *values)
-{
-    const drift_job job = *(const drift_job *)argument;
-    const double *separation = job.soil->set.data[MOR_FIELD_SEPARATION];
-    for (int64_t i = 0; i < n; ++i) {
-        const int64_t particle = job.index != NULL ? job.index[first + i] : first + i;
-        const double reference = job.reference > 0.0 ? job.reference : mor_soil_reference_density(job.soil, particle);
-        const double ratio = job.density[first + i] / reference;
-        const double least = separation != NULL ? exp(-fmax(separation[particle], 0.0)) : 1.0;
-        values[i] = fmax(ratio - 1.0, fmax(1.0 - ratio / least, 0.0));
-    }
-}
-
-static mor_status density_drift(mor_context *context, const view *v, double *value)
-{
-    const bool is_one = v->soil >= 0;
-    const drift_job job = {v->points.density, &v->simulation->soil, v->index,
-                           is_one ? v->simulation->the_case->soils[v->soil].density : 0.0};
-    return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
-}
-
-mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
-                                   double *value)
-{
-    const mor_soil *soil = &simulation->soil;
-    double *const *data = soil->set.data;
-    const mor_measure_points points = {.n_points = soil->set.n_particles,
-                                       .dimension = simulation->the_case->dimension,
-                                       .spacing = simulation->the_case->spacing,
-                                       .position = data[MOR_FIELD_POSITION],
-                                       .mass = data[MOR_FIELD_MASS],
-                                       .density = data[MOR_FIELD_DENSITY],
-                                       .n_threads = context->n_threads};
-    const drift_job job = {points.density, soil, NULL, 0.0};
-    *value = 0.0;
-    return points.n_points == 0 ? MOR_OK : mor_measure_share(context, &points, fill_drifts, &job, percent, value);
-}
-
 static mor_status measure_column(mor_context *context, const view *v, mor_measure_stress *stress)
 {
     const mor_simulation *s = v->simulation;
@@ -458,11 +411,6 @@ static const mor_probe_measure measures[] =
                "largest speed of a soil particle"},
       .run = largest_speed,
       .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"density_drift", "1", "1", SOIL | PERCENTILE, 0, OF_SOIL, 99.0,
-               "relative deviation of the density from its initial value; of soil that has come apart, from the range "
-               "down to that of its volume"},
-      .run = density_drift,
-      .cost = MOR_PROBE_COST_PERCENTILE},
      {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,
                "relative error of the vertical stress in a column at rest"},
       .run = stress_error,
@@ -482,6 +430,7 @@ static const mor_probe_measure measures[] =
 const mor_case_probe_type *mor_probe_type_at(int index)
 {
     static const mor_probe_measure *const tables[] = {measures,
+                                                      mor_probe_density_measures,
                                                       mor_probe_wall_measures,
                                                       mor_probe_local_measures,
                                                       mor_probe_flow_measures,

@@ -5,6 +5,7 @@
 
 #include "cases/driver/probe/probe_track.h"
 #include "cases/driver/scene/simulation.h"
+#include "core/sph/measure/measure_gaps.h"
 
 /** @file
  *  Named results: what the probes of a case read off a simulation. The measurements themselves are in
@@ -88,6 +89,11 @@ double mor_probe_bodies_error(const mor_simulation *simulation, double *share);
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
 mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
                                    double *value);
+
+/** Looks for gaps between particles of the soil that densities do not tell of, whether or not a probe does.
+ *  @param gaps       [out]     one object; nothing judged without soil
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+mor_status mor_probe_gaps(mor_context *context, const mor_simulation *simulation, mor_measure_gaps *gaps);
 
 /** Returns the SI unit of a probe of the case, a static string.
  *  @param probe    [in]  index of the probe */

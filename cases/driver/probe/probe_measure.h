@@ -104,6 +104,9 @@ extern const mor_probe_measure mor_probe_body_measures[];
 /** Probes of the soil at a place. */
 extern const mor_probe_measure mor_probe_local_measures[];
 
+/** Probes of how dense the soil is. */
+extern const mor_probe_measure mor_probe_density_measures[];
+
 /** Probes of the soil at walls. */
 extern const mor_probe_measure mor_probe_wall_measures[];
 

@@ -212,6 +212,30 @@ static mor_status warn_of_density_drift(mor_context *context, const mor_simulati
     return MOR_OK;
 }
 
+/* Soil that came apart and lies more loosely than its densities tell: heights and volumes are too large. */
+static mor_status warn_of_gaps(mor_context *context, const mor_simulation *s)
+{
+    const double advisable = 0.2;    /* soil that fell or slid has 0.08 at most; without the memory 0.4 to 0.6 */
+    const double judged_least = 0.1; /* of the soil: what few particles have says nothing */
+    mor_measure_gaps gaps;
+    if (!s->has_soil) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_probe_gaps(context, s, &gaps));
+    if (gaps.loose_share > advisable && gaps.inner_share > judged_least) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        MOR_RUN_WARNING_AT_END
+                        "%.3g %% of the soil away from surfaces lies loosely: its neighbors fill less than %g of what "
+                        "their densities tell, all of such soil %.2g in the mean; advisable are %g %% at most. It came "
+                        "apart and did not close again, so that heights and volumes are too large; %s, or use a finer "
+                        "spacing, and look for gaps in the pictures",
+                        100.0 * gaps.loose_share, MOR_MEASURE_LOOSE, gaps.fill, 100.0 * advisable,
+                        s->the_case->numerics.separation_memory ? "where a law has tension_ratio below 1, set it to 1"
+                                                                : "set numerics.separation_memory = true");
+    }
+    return MOR_OK;
+}
+
 /* A window that lies between two measurements gives no largest, smallest or mean value. */
 static void warn_of_windows(mor_context *context, const mor_simulation *s)
 {
@@ -366,6 +390,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     print_end(files, p, speed);
     warn_of_outflow(context, s);
     MOR_TRY(context, warn_of_density_drift(context, s));
+    MOR_TRY(context, warn_of_gaps(context, s));
     warn_of_windows(context, s);
     warn_of_motion(context, s);
     MOR_TRY(context, warn_of_energy(context, s));
