@@ -14,7 +14,8 @@ const mor_command_option mor_command_options[MOR_OPTION_COUNT] = {
          "overrides a key of the case (of material: a parameter of the law, or a setting of the test); may be given "
          "many "
          "times, such as --set spacing='2 mm' or --set "
-         "'soil[0].material.cohesion=1 kPa'; a group, as --set 'numerics={xsph=0.1;}', replaces all of it",
+         "'soil[0].material.cohesion=1 kPa'; a group, as --set 'numerics={xsph=0.1;}', replaces all of it; "
+         "KEY=default leaves a key of the case out",
          "what the case says"},
     [MOR_OPTION_RESUME] = {"resume", '\0', NULL, MOR_WORD_NONE, "go on from the last good checkpoint of the folder",
                            "a new run; a folder that holds one is refused"},

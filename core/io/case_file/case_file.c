@@ -15,6 +15,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* The word for a value that leaves a key out. */
+#define LEFT_OUT "default"
+
 enum { CHUNK_BYTES = 1 << 16, SETTING_BYTES_MAX = 4096, SNIPPET_BYTES = 60, INDEX_DIGITS = 6 };
 
 /* Nodes and strings live in chunks that are freed together. */
@@ -29,6 +32,7 @@ struct mor_case_file {
     mor_case_node *root;
     chunk *last;
     const char *name;
+    int n_nodes; /* made so far */
 };
 
 static mor_status add_chunk(mor_context *context, mor_case_file *file, size_t size)
@@ -75,6 +79,7 @@ static mor_status add_node(mor_context *context, mor_case_file *file, mor_case_n
     MOR_TRY(context, take_bytes(context, file, sizeof(mor_case_node), &block));
     *node = block;
     (*node)->parent = parent;
+    file->n_nodes += 1;
     if (name != NULL) {
         MOR_TRY(context, copy_text(context, file, name, &(*node)->name));
     }
@@ -475,6 +480,34 @@ static mor_status assign_value(mor_context *context, const source *from, const c
     return copy_text(context, from->file, value + strspn(value, " \t"), &node->text);
 }
 
+static bool is_word(const char *value, const char *word)
+{
+    const char *start = value + strspn(value, " \t");
+    const size_t length = strlen(word);
+    return strncmp(start, word, length) == 0 && start[length + strspn(start + length, " \t")] == '\0';
+}
+
+/* Takes a member out of its group. */
+static mor_status leave_out(mor_context *context, const source *from, bool is_made, mor_case_node *node)
+{
+    mor_case_node *group = (mor_case_node *)node->parent;
+    mor_case_node **link = &group->first_child;
+    MOR_CHECK(context, !is_made, MOR_ERROR_CONFIG,
+              "override '%s': found no such key in the file; allowed with " LEFT_OUT
+              ": a key that the file has, which is then left out; correct it, or leave the override out",
+              from->origin);
+    MOR_CHECK(context, group->kind == MOR_CASE_NODE_GROUP, MOR_ERROR_CONFIG,
+              "override '%s': found " LEFT_OUT " for an entry of a list; allowed: for a member of a group, for entries "
+              "have no defaults; write the list without the entry",
+              from->origin);
+    while (*link != node) {
+        link = &(*link)->next;
+    }
+    *link = node->next;
+    group->n_children -= 1;
+    return MOR_OK;
+}
+
 mor_status mor_case_file_set(mor_context *context, mor_case_file *file, const char *setting)
 {
     const char *equals = strchr(setting, '=');
@@ -487,7 +520,11 @@ mor_status mor_case_file_set(mor_context *context, mor_case_file *file, const ch
     source from = {file, NULL, false};
     MOR_TRY(context, copy_text(context, file, setting, &from.origin));
     mor_case_node *node = NULL;
+    const int n_before = file->n_nodes;
     MOR_TRY(context, follow_key(context, &from, &node));
+    if (is_word(equals + 1, LEFT_OUT)) {
+        return leave_out(context, &from, file->n_nodes > n_before, node);
+    }
     node->origin = from.origin;
     node->line = 0;
     return assign_value(context, &from, equals + 1, node);

@@ -63,7 +63,8 @@ mor_status mor_case_file_load(mor_context *context, const char *path, mor_case_f
 
 /** Writes one setting over those of the file, as the command line does: "numerics.courant=0.2",
  *  "soil[0].material.friction_angle=30 deg", "gravity[2]=0". Groups on the way are made when missing. The value is read
- *  as in the file; what is no value there becomes a text.
+ *  as in the file; what is no value there becomes a text; the word default leaves a member of a group out, as if the
+ *  file did not have it.
  *  @param setting [in]      zero-terminated "key=value"; copied
  *  Returns: MOR_OK; MOR_ERROR_CONFIG; MOR_ERROR_MEMORY. After a failure the tree may hold groups made on the way. */
 mor_status mor_case_file_set(mor_context *context, mor_case_file *file, const char *setting);

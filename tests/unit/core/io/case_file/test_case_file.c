@@ -297,6 +297,31 @@ static void a_setting_may_add_what_the_file_lacks(void **state)
     assert_string_equal(place, "a.cfg:1");
 }
 
+/* The first, the last and the only member of a group; in quotes the word is a text like any other. */
+static void the_word_default_leaves_a_key_out(void **state)
+{
+    fixture *f = *state;
+    const mor_case_node *root = parse(f, "a = 1; g = { b = 2; c = 3; d = 4; }; l = ( { e = 5; } );");
+    const mor_case_node *g = mor_case_node_find(root, "g");
+    set(f, "g.b=default");
+    set(f, "g.d= default ");
+    assert_null(mor_case_node_find(g, "b"));
+    assert_null(mor_case_node_find(g, "d"));
+    assert_int_equal(mor_case_node_find(g, "c")->integer, 3);
+    assert_int_equal(g->n_children, 1);
+    set(f, "l[0].e=default");
+    assert_int_equal(mor_case_node_find(root, "l")->first_child->n_children, 0);
+    set(f, "g=default");
+    assert_null(mor_case_node_find(root, "g"));
+    assert_int_equal(root->n_children, 2);
+    set(f, "g.b=7");
+    assert_int_equal(mor_case_node_find(mor_case_node_find(root, "g"), "b")->integer, 7);
+    set(f, "a=\"default\"");
+    assert_string_equal(mor_case_node_find(root, "a")->text, "default");
+    set(f, "a=defaults");
+    assert_string_equal(mor_case_node_find(root, "a")->text, "defaults");
+}
+
 static void a_setting_that_fits_nothing_is_refused(void **state)
 {
     static const struct {
@@ -317,7 +342,11 @@ static void a_setting_that_fits_nothing_is_refused(void **state)
                 {"l[]=5", "not understood from '[]"},
                 {"l[0=5", "not understood from '[0=5'"},
                 {"l[99999999999]=5", "not understood"},
-                {"a[0]=5", "found entry [0] of a, which is 1"}};
+                {"a[0]=5", "found entry [0] of a, which is 1"},
+                {"b=default", "found no such key in the file"},
+                {"g.c=default", "found no such key in the file"},
+                {"h.c=default", "found no such key in the file"},
+                {"l[1]=default", "found default for an entry of a list"}};
     fixture *f = *state;
     (void)parse(f, "a = 1; g = { b = 2; }; l = ( 1, 2 );");
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
@@ -361,6 +390,7 @@ int main(void)
         cmocka_unit_test(an_include_is_refused_and_not_followed),
         cmocka_unit_test(a_setting_replaces_what_the_file_says),
         cmocka_unit_test(a_setting_may_add_what_the_file_lacks),
+        cmocka_unit_test(the_word_default_leaves_a_key_out),
         cmocka_unit_test(a_setting_that_fits_nothing_is_refused),
         cmocka_unit_test(a_decimal_comma_of_the_locale_changes_nothing),
     };
