@@ -190,7 +190,7 @@ static const bad_case bad_cases[] = {
     {"contact_pair_twice", 30, "the pair of 'floor' and 'ball' again", "line 29 has it"},
     {"probe_of_unknown_rock", 31, "probes[0].body = \"boll\"", "did you mean 'ball'?"},
     {"probe_without_rock", 31,
-     "found no 'body' in probes[0]; allowed: one, for a probe of type 'body_velocity' needs it", "add it"},
+     "found no 'body' in probes[0]; allowed: a value, which a probe of type 'body_velocity' must have", "add it"},
     {"probe_without_soil", 31, "found the probe 'ball_speed' of type 'repose_angle' in a case without soil",
      "remove the probe or add soil"},
     {"probe_without_rocks", 24, "found the probe 'contact_depth' of type 'contact_depth' in a case without bodies",

@@ -112,8 +112,7 @@ static const answer answers[] = {
     {{"check", MOR_SOURCE_DIR "/cases/column-at-rest/case.cfg", NULL}, {"case.cfg: ok."}},
     {{"check", COLUMN, "--set", "spacing=5 mm", "-t", "1", NULL}, {"ok. 800 soil particles"}},
     {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", NULL},
-     {" 800 particles, smoothing length", "1 sub-step per step", "bytes per soil particle",
-      "expected time"}},
+     {" 800 particles, smoothing length", "1 sub-step per step", "bytes per soil particle", "expected time"}},
     {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", "--stages", NULL},
      {"Stages of a step of 'soil'", "updates  position density (boundaries) (bounds of motion)"}},
     {{"explain", COLUMN, "-s", "spacing=5 mm", "-t", "1", NULL}, {"  scheme                  moraine\n"}},
@@ -227,6 +226,27 @@ static void refused_run_leaves_no_folder_behind(void **state)
     assert_int_equal(access(path, R_OK), 0);
 }
 
+static void expect_log(run_folder *folder, const char *run, const char *text)
+{
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    unsigned char *bytes = run_folder_load(finished_run_file(folder, path, run, "log.txt"), &n_bytes);
+    assert_non_null(bytes);
+    program_expect_text((const char *)bytes, text);
+    free(bytes);
+}
+
+static void log_tells_where_a_run_was_stopped(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    const char *const arguments[] = {"run", path, "-t", "1", "-o", "part", "--stop-at", "0.02 s", NULL};
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, arguments, 0);
+    program_clear(&outcome);
+    expect_log(folder, "part", "info: stopped at t = 0.02");
+}
+
 static void missed_expectation_ends_with_code_3(void **state)
 {
     run_folder *folder = *state;
@@ -244,6 +264,7 @@ static void missed_expectation_ends_with_code_3(void **state)
     program_expect_text(outcome.output, "a guess");
     program_expect_text(outcome.output, "NO");
     program_clear(&outcome);
+    expect_log(folder, "missed", "; 1 of 1 expectations missed\n");
     outcome = program_run(folder, met, 0);
     program_expect_text(outcome.output, "yes");
     program_clear(&outcome);
@@ -365,6 +386,7 @@ int main(void)
         TEST(resolved_case_gives_the_same_results),
         TEST(run_does_not_overwrite_a_run),
         TEST(refused_run_leaves_no_folder_behind),
+        TEST(log_tells_where_a_run_was_stopped),
         TEST(missed_expectation_ends_with_code_3),
         TEST(run_stopped_by_a_guard_ends_with_code_1),
         TEST(interrupted_run_leaves_a_checkpoint_and_goes_on),

@@ -20,7 +20,8 @@ DELIBERATE = ("tests/regression/bad_", "tests/fuzz/corpus/")  # malformed on pur
 
 # The project speaks of itself alone. Paths outside it may be named in tests, which look for optional data there.
 OUTSIDE_PATHS = re.compile(r"\.\./shared\b|(?<![\w.])/root/|(?<![\w.])/home/")
-UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b|\b(stub(bed)?|placeholders?|not (yet )?implemented|dummy value)\b")
+UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b|\b(stub(bed)?|placeholders?|not (yet )?implemented|dummy value)\b"
+                        r"|@@\w+@@")
 # A program that uses the library has no options: its messages say what to do in words of their own.
 OF_PROGRAM = ("tests/", "cases/driver/command/", "cases/driver/main.c")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+|\bwith -[a-z]\b|"

@@ -506,7 +506,7 @@ class Text(Sample):
         self.expect(check_text.check(self.root))
 
     def test_unfinished_work_is_refused(self):
-        for word in ("TODO", "FIXME", "a stub", "placeholder", "not implemented", "not yet implemented"):
+        for word in ("TODO", "FIXME", "a stub", "placeholder", "not implemented", "not yet implemented", "@@ROWS@@"):
             with self.subTest(word):
                 self.refuse("core/base/bad.c", f"{TAG}/* {word} */\n", "unfinished")
 

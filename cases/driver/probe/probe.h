@@ -90,9 +90,10 @@ double mor_probe_bodies_error(const mor_simulation *simulation, double *share);
 mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
                                    double *value);
 
-/** Looks for gaps between particles of the soil that densities do not tell of, whether or not a probe does.
- *  @param gaps       [out]     one object; nothing judged without soil
- *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
+/** Looks for gaps between particles of the soil that densities do not tell of.
+ *  @param simulation [in]      with or without soil
+ *  @param gaps       [out]     one object; without soil nothing is judged, and its fill is NaN
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: as mor_measure_find_gaps. */
 mor_status mor_probe_gaps(mor_context *context, const mor_simulation *simulation, mor_measure_gaps *gaps);
 
 /** Returns the SI unit of a probe of the case, a static string.

@@ -62,9 +62,9 @@ mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *s
 mor_status mor_probe_gaps(mor_context *context, const mor_simulation *simulation, mor_measure_gaps *gaps)
 {
     const mor_measure_points points = soil_points(context, simulation);
-    const mor_measure_sight sight = {simulation->soil.smoothing_length, simulation->soil.lattice_sum};
+    const mor_measure_reference reference = {simulation->soil.smoothing_length, simulation->soil.lattice_sum};
     *gaps = (mor_measure_gaps){.fill = NAN};
-    return points.n_points == 0 ? MOR_OK : mor_measure_find_gaps(context, &points, &sight, gaps);
+    return points.n_points == 0 ? MOR_OK : mor_measure_find_gaps(context, &points, &reference, gaps);
 }
 
 const mor_probe_measure mor_probe_density_measures[] = {

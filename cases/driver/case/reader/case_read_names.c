@@ -93,9 +93,7 @@ static void keep_mistake(const mor_case_reader *reader, const mor_case_node *gro
                          const char *path, const char *meant)
 {
     mor_case_mistakes *mistakes = reader->mistakes;
-    if (meant != NULL && mistakes->n_proposals < MOR_CASE_PROPOSALS_MAX) {
-        mistakes->proposals[mistakes->n_proposals++] = (mor_case_proposal){.group = group, .name = meant};
-    }
+    bool is_told = true;
     if (mistakes->n++ == 0) {
         mistakes->first = *reader->context;
     } else {
@@ -110,7 +108,11 @@ static void keep_mistake(const mor_case_reader *reader, const mor_case_node *gro
         if (n < 0 || (size_t)n >= room) {
             mistakes->others[used] = '\0';
             mistakes->n_untold += 1;
+            is_told = false;
         }
+    }
+    if (meant != NULL && is_told && mistakes->n_proposals < MOR_CASE_PROPOSALS_MAX) {
+        mistakes->proposals[mistakes->n_proposals++] = (mor_case_proposal){.group = group, .name = meant};
     }
     mor_context_clear_error(reader->context);
 }

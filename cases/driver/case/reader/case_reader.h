@@ -25,7 +25,7 @@ typedef struct mor_case_mistakes {
     char others[MOR_CASE_MISTAKES_BYTES]; /* zero-terminated; a line about each of the others, a newline before each */
     int n;
     int n_untold;                                        /* of them, for which others had no room */
-    mor_case_proposal proposals[MOR_CASE_PROPOSALS_MAX]; /* shape [n_proposals]; for the first of them */
+    mor_case_proposal proposals[MOR_CASE_PROPOSALS_MAX]; /* shape [n_proposals]; for those that are told */
     int n_proposals;
     bool ends_with_misspelled; /* what ended the reading is that one of them is missing */
 } mor_case_mistakes;

@@ -64,7 +64,7 @@ static mor_status check_special_keys(const mor_case_reader *reader, const mor_ca
         }
         if (child == NULL && (required >> k & 1U) != 0) {
             char allowed[MOR_CASE_NODE_TEXT_BYTES];
-            snprintf(allowed, sizeof allowed, "one, for a probe of type '%s' needs it", type->name);
+            snprintf(allowed, sizeof allowed, "a value, which a probe of type '%s' must have", type->name);
             return mor_case_reader_refuse_missing(reader, node, key, allowed);
         }
     }

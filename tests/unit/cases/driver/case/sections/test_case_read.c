@@ -235,7 +235,7 @@ static void what_belongs_together_is_demanded_together(void **state)
         const char *fragment;
     } rows[] = {{"probes[2].direction=(0, 0, 0)", "a direction of length zero"},
                 {"probes=( { type = \"momentum\"; } )",
-                 "found no 'direction' in probes[0]; allowed: one, for a probe of type 'momentum' needs it"},
+                 "found no 'direction' in probes[0]; allowed: a value, which a probe of type 'momentum' must have"},
                 {"probes=( { type = \"run_out\"; radial = true; direction = (1, 0, 0); } )", "with radial = false"},
                 {"probes=( { type = \"run_out\"; measure = \"thickness\"; percentile = 50; } )", "\"mass_percentile\""},
                 {"probes=( { type = \"mass\"; percentile = 50; } )", "no effect on a probe of type 'mass'"},
@@ -346,6 +346,22 @@ static void many_names_that_are_unknown_are_counted(void **state)
     snprintf(end, sizeof end, "\nand %d more unknown names", MANY - n_told);
     assert_true(n_told > 2 && n_told < MANY);
     assert_non_null(strstr(f->context.message, end));
+}
+
+/* One whose misspelled name there was no room to tell is told as missing. */
+static void a_required_name_is_told_where_its_misspelling_is_not(void **state)
+{
+    enum { MANY = 20 };
+    case_reading *f = *state;
+    char text[MANY * 32 + 64] = "dimension = 2;";
+    for (int k = 0; k < MANY; ++k) {
+        const size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, " unknown_name_%d = 1;", k);
+    }
+    strcat(text, " spacng = 0.1;");
+    case_reading_refuse(f, text, (const char *[]){NULL}, "t.cfg:1", "more unknown names");
+    assert_null(strstr(f->context.message, "spacng"));
+    assert_non_null(strstr(f->context.message, "found no 'spacing'"));
 }
 
 static void a_cut_case_is_refused_or_whole_but_never_half_kept(void **state)
@@ -478,6 +494,7 @@ int main(void)
         cmocka_unit_test(names_that_are_unknown_are_told_together),
         cmocka_unit_test(a_required_name_that_is_misspelled_is_told_once),
         cmocka_unit_test(many_names_that_are_unknown_are_counted),
+        cmocka_unit_test(a_required_name_is_told_where_its_misspelling_is_not),
         cmocka_unit_test(a_cut_case_is_refused_or_whole_but_never_half_kept),
         cmocka_unit_test(the_scale_multiplies_every_dimensional_value_exactly),
         cmocka_unit_test(a_written_case_reads_back_to_the_same_bits),
