@@ -84,9 +84,12 @@ static const char *find_reason(const mor_safety_rules *rules, double displacemen
     if (finding->by_speed == MOR_SAFETY_MOVES) {
         return "it moves, but not far in the time given";
     }
+    if (finding->speed_ratio > 1.0) {
+        return displacement > rules->far ? "it has moved far, and its speed grows, but is below that of failure"
+                                         : "it creeps, and its speed grows: look for a vibration in the chart of speed";
+    }
     return displacement > rules->far ? "it has moved far, but its speed decays"
-                                     : "it creeps: its speed neither decays "
-                                       "to rest nor stays";
+                                     : "it creeps: its speed neither decays to rest nor stays";
 }
 
 void mor_safety_judge(const mor_safety_rules *rules, const mor_safety_sample *samples, int n_samples,

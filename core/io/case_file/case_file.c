@@ -494,7 +494,8 @@ static mor_status leave_out(mor_context *context, const source *from, bool is_ma
     mor_case_node **link = &group->first_child;
     MOR_CHECK(context, !is_made, MOR_ERROR_CONFIG,
               "override '%s': found no such key in the file; allowed with " LEFT_OUT
-              ": a key that the file has, which is then left out; correct it, or leave the override out",
+              ": a key that the file has, which is then left out; one that it does not have is at its default already; "
+              "leave the override out, or correct the key",
               from->origin);
     MOR_CHECK(context, group->kind == MOR_CASE_NODE_GROUP, MOR_ERROR_CONFIG,
               "override '%s': found " LEFT_OUT " for an entry of a list; allowed: for a member of a group, for entries "

@@ -154,8 +154,10 @@ typedef struct boundary_terms {
 } boundary_terms;
 
 /* Leaves of the motion of a particle along a boundary what is slip, and not shear of the soil between the particle and
- * its face, whose speed is 2 D n times the depth. The rate is a fit over the support and shows a part of the shear of a
- * thin layer along the face, so that SHEARS times as much counts as shear; a block that slides has next to none. */
+ * its face, whose speed is 2 D n times the depth: what grows away from the face, with the motion. The rate is a fit
+ * over the support and shows a part of the shear of a thin layer along the face, so that SHEARS times as much counts as
+ * shear; a block that slides has next to none, and rattles against the motion as often as with it.
+ * slip: across the normal, m/s */
 static void leave_slip(const boundary_terms *p, const double *normal, double *slip)
 {
     const double speed = mor_vector_length(slip);
@@ -164,11 +166,8 @@ static void leave_slip(const boundary_terms *p, const double *normal, double *sl
         return;
     }
     mor_symmetric_apply(p->strain_rate, normal, shear);
-    const double across = mor_vector_dot(shear, normal);
-    for (int a = 0; a < 3; ++a) {
-        shear[a] -= across * normal[a];
-    }
-    const double part = mor_max(1.0 - SHEARS * 2.0 * p->depth * mor_vector_length(shear) / speed, 0.0);
+    const double rate = mor_max(mor_vector_dot(shear, slip) / speed, 0.0);
+    const double part = mor_max(1.0 - SHEARS * 2.0 * p->depth * rate / speed, 0.0);
     for (int a = 0; a < 3; ++a) {
         slip[a] *= part;
     }
@@ -225,14 +224,20 @@ static double limit_friction(const double *record, double limit, double area, do
     return trial > limit ? (limit + noise) / (trial + noise) : 1.0;
 }
 
-/* Adds the acceleration of one particle by the wall to what the continued stress gave; returns the part of the
- * tangential motion that is mirrored. */
-static double find_boundary_acceleration(const boundary_terms *p, const double *record, double *acceleration)
+/* The parts of the motion of a particle that a boundary mirrors, 1. */
+typedef struct mirrored {
+    double along, across;
+} mirrored;
+
+/* Adds the acceleration of one particle by the wall to what the continued stress gave. A boundary that does not pull at
+ * soil is no part of it while they separate: mirrored, the motion away from it would raise the tension that drives
+ * it. */
+static mirrored find_boundary_acceleration(const boundary_terms *p, const double *record, double *acceleration)
 {
     const double *gradient = p->gradient;
     const double length = mor_vector_length(gradient);
     if (!(length > 0.0)) {
-        return 1.0;
+        return (mirrored){1.0, 1.0};
     }
     /* Wall normal, eq. 33: the kernel gradient over the wall points into it. */
     const double normal[3] = {-gradient[0] / length, -gradient[1] / length, -gradient[2] / length};
@@ -253,7 +258,9 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     const double own = factor * (mor_vector_dot(traction, normal) - pressure);
     const double continued = mor_vector_dot(acceleration, normal);
     const bool is_coulomb = p->friction.kind == MOR_WALL_COULOMB;
-    const double along = is_coulomb && !p->coulomb_pulls ? mor_max(own + continued, 0.0) : own + continued;
+    const bool only_presses = is_coulomb && !p->coulomb_pulls;
+    const bool is_pulled = only_presses && own + continued < 0.0 && mor_vector_dot(traction, normal) > 0.0;
+    const double along = only_presses ? mor_max(own + continued, 0.0) : own + continued;
     const bool continues_freely = is_coulomb && !p->limits_all;
     double stick = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
@@ -283,7 +290,7 @@ static double find_boundary_acceleration(const boundary_terms *p, const double *
     for (int a = 0; a < 3; ++a) {
         acceleration[a] = along * normal[a] + tangential[a];
     }
-    return stick;
+    return (mirrored){stick, is_pulled && !(closing > 0.0) ? 0.0 : 1.0};
 }
 
 /* In a corner the normals of all walls direct what the sums of one give along another. The stress acts on the wall
@@ -331,7 +338,9 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
-        contact->stick[lane] = find_boundary_acceleration(&p, record, own);
+        const mirrored parts = find_boundary_acceleration(&p, record, own);
+        contact->stick[lane] = parts.along;
+        contact->grip[lane] = parts.across;
         for (int a = 0; a < 3; ++a) {
             acceleration[i * 3 + a] += contact->barrier.is_on ? own[a] + repulsion[a] : own[a];
         }
@@ -394,7 +403,7 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
 }
 
 /* Velocity that the wall's mirror image has beyond the particle's own, 2 (u - v) where it sticks. */
-static void mirrored_difference(const double *velocity, const double *record, const double *gradient, double stick,
+static void mirrored_difference(const double *velocity, const double *record, const double *gradient, mirrored parts,
                                 double *difference)
 {
     const double length2 = mor_vector_dot(gradient, gradient);
@@ -405,7 +414,7 @@ static void mirrored_difference(const double *velocity, const double *record, co
     const double across = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
     for (int a = 0; a < 3; ++a) {
         const double normal = across * gradient[a];
-        difference[a] = -2.0 * (normal + stick * (relative[a] - normal));
+        difference[a] = -2.0 * (parts.across * normal + parts.along * (relative[a] - normal));
     }
 }
 
@@ -419,8 +428,8 @@ static void add_slot_gradient(const mor_soil_contact *contact, int64_t slot, con
         const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         const double *record = records + i * MOR_RECORD_SIZE;
         double difference[3];
-        mirrored_difference(mor_soil_contact_velocity(contact, lane), record, gradient, contact->stick[lane],
-                            difference);
+        mirrored_difference(mor_soil_contact_velocity(contact, lane), record, gradient,
+                            (mirrored){contact->stick[lane], contact->grip[lane]}, difference);
         for (int a = 0; a < 9; ++a) {
             velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
         }
@@ -448,6 +457,7 @@ static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int6
         const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
         const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
         const double stick = contact->stick[lane];
+        const double grip = contact->grip[lane];
         double across = 0.0;
         double along = 0.0;
         if (!split_moment(sums, contact->dimension, &across, &along)) {
@@ -457,8 +467,8 @@ static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int6
         for (int a = 0; a < 6; ++a) {
             const double square = gradient[a % 3] * gradient[a < 3 ? a : (a - 2) % 3] / length2;
             const double flat = along * ((a < contact->dimension ? 1.0 : 0.0) - square);
-            closed[6 * (first + k) + a] += across * square + stick * flat;
-            continued[6 * (first + k) + a] += (1.0 - stick) * flat;
+            closed[6 * (first + k) + a] += grip * across * square + stick * flat;
+            continued[6 * (first + k) + a] += grip * (1.0 - stick) * flat;
         }
     }
 }

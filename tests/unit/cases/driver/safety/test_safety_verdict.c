@@ -7,6 +7,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -69,6 +70,17 @@ static double creep(double time)
     return 3.0e-4;
 }
 
+/* Passes the limit of displacement after 30 units, and is not fast then. */
+static double creep_faster(double time)
+{
+    return 3.0e-4 * exp(0.01 * time);
+}
+
+static double creep_slower(double time)
+{
+    return 4.0e-4 * exp(-0.01 * time);
+}
+
 /* Starts late: nothing is to be seen while motion is damped. */
 static double start_late(double time)
 {
@@ -115,6 +127,27 @@ static void creep_is_undecided_when_time_is_up(void **state)
     assert_int_equal(found.verdict, MOR_SAFETY_UNDECIDED);
     assert_int_equal(found.by_speed, MOR_SAFETY_UNCLEAR);
     assert_true(found.reason[0] != '\0' && time >= 30.0);
+}
+
+static void reason_tells_whether_speed_grows_or_decays(void **state)
+{
+    static const struct {
+        motion speed;
+        double offset; /* 1 */
+        const char *reason;
+    } rows[] = {{creep_faster, 0.0, "moved far, and its speed grows"},
+                {creep_slower, 0.0, "moved far, but its speed decays"},
+                {creep_faster, -0.005, "creeps, and its speed grows"},
+                {creep_slower, -0.005, "creeps: its speed neither decays"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        double time = 0.0;
+        const mor_safety_finding found = follow(rows[k].speed, rows[k].offset, &time);
+        assert_int_equal(found.verdict, MOR_SAFETY_UNDECIDED);
+        if (strstr(found.reason, rows[k].reason) == NULL) {
+            fail_msg("row %zu: %s", k, found.reason);
+        }
+    }
 }
 
 static void rest_after_a_long_way_is_undecided(void **state)
@@ -179,6 +212,7 @@ int main(void)
         cmocka_unit_test(motion_that_decays_is_stable),
         cmocka_unit_test(motion_that_grows_or_stays_fails),
         cmocka_unit_test(creep_is_undecided_when_time_is_up),
+        cmocka_unit_test(reason_tells_whether_speed_grows_or_decays),
         cmocka_unit_test(rest_after_a_long_way_is_undecided),
         cmocka_unit_test(elastic_displacement_is_no_failure),
         cmocka_unit_test(outliers_do_not_decide),
