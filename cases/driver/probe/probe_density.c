@@ -38,22 +38,10 @@ static mor_status density_drift(mor_context *context, const view *v, double *val
     return mor_measure_share(context, &v->points, fill_drifts, &job, v->probe->percentile, value);
 }
 
-static mor_measure_points soil_points(const mor_context *context, const mor_simulation *simulation)
-{
-    double *const *data = simulation->soil.set.data;
-    return (mor_measure_points){.n_points = simulation->soil.set.n_particles,
-                                .dimension = simulation->the_case->dimension,
-                                .spacing = simulation->the_case->spacing,
-                                .position = data[MOR_FIELD_POSITION],
-                                .mass = data[MOR_FIELD_MASS],
-                                .density = data[MOR_FIELD_DENSITY],
-                                .n_threads = context->n_threads};
-}
-
 mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *simulation, double percent,
                                    double *value)
 {
-    const mor_measure_points points = soil_points(context, simulation);
+    const mor_measure_points points = mor_simulation_points(simulation, context->n_threads);
     const drift_job job = {points.density, &simulation->soil, NULL, 0.0};
     *value = 0.0;
     return points.n_points == 0 ? MOR_OK : mor_measure_share(context, &points, fill_drifts, &job, percent, value);
@@ -61,7 +49,7 @@ mor_status mor_probe_density_drift(mor_context *context, const mor_simulation *s
 
 mor_status mor_probe_gaps(mor_context *context, const mor_simulation *simulation, mor_measure_gaps *gaps)
 {
-    const mor_measure_points points = soil_points(context, simulation);
+    const mor_measure_points points = mor_simulation_points(simulation, context->n_threads);
     const mor_measure_reference reference = {simulation->soil.smoothing_length, simulation->soil.lattice_sum};
     *gaps = (mor_measure_gaps){.fill = NAN};
     return points.n_points == 0 ? MOR_OK : mor_measure_find_gaps(context, &points, &reference, gaps);

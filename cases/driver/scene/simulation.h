@@ -6,6 +6,7 @@
 #include "cases/driver/case/case.h"
 #include "cases/driver/scene/simulation_bodies.h"
 #include "core/material/registry.h"
+#include "core/sph/measure/measure.h"
 #include "core/sph/soil.h"
 #include "core/time/schedule.h"
 
@@ -91,6 +92,11 @@ void mor_simulation_find_up(const mor_case *the_case, double *up);
 /** Lateral over vertical stress at rest of a region, 1: the one given, else 1 - sin(friction angle), else 1.
  *  @param region [in]  index of the soil region */
 double mor_simulation_lateral_ratio(const mor_simulation *simulation, int region);
+
+/** Returns the soil as measurements take it; borrowed, without an order of its own.
+ *  @param simulation [in]  with soil, or zeroed soil: no points
+ *  @param n_threads  [in]  that share a measurement; 0: one */
+mor_measure_points mor_simulation_points(const mor_simulation *simulation, int n_threads);
 
 /** Number of particles, soil and rocks. */
 int64_t mor_simulation_particles(const mor_simulation *simulation);

@@ -45,7 +45,7 @@ double mor_simulation_lateral_ratio(const mor_simulation *simulation, int region
                : 1.0 - sin(mor_params_role_value(material->parameters, soil->parameters, MOR_ROLE_FRICTION_ANGLE, 0.0));
 }
 
-static mor_measure_points points_of(const mor_simulation *simulation)
+mor_measure_points mor_simulation_points(const mor_simulation *simulation, int n_threads)
 {
     double *const *data = simulation->soil.set.data;
     return (mor_measure_points){.n_points = simulation->soil.set.n_particles,
@@ -53,7 +53,8 @@ static mor_measure_points points_of(const mor_simulation *simulation)
                                 .spacing = simulation->the_case->spacing,
                                 .position = data[MOR_FIELD_POSITION],
                                 .mass = data[MOR_FIELD_MASS],
-                                .density = data[MOR_FIELD_DENSITY]};
+                                .density = data[MOR_FIELD_DENSITY],
+                                .n_threads = n_threads};
 }
 
 /* Stored energies of particles by the material's own operation; NaN when the model has no energy operation. */
@@ -96,7 +97,7 @@ void mor_simulation_energies(const mor_simulation *simulation, int n_threads, do
     mor_simulation_place_point(simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, datum);
     mor_simulation_bodies_energy(&simulation->bodies, datum, &energies[0], &energies[1], &energies[2]);
     if (simulation->has_soil) {
-        mor_measure_points points = points_of(simulation);
+        mor_measure_points points = mor_simulation_points(simulation, 0);
         points.n_threads = n_threads;
         energies[0] += mor_measure_kinetic_energy(&points, simulation->soil.set.data[MOR_FIELD_VELOCITY]);
         energies[1] += mor_measure_potential_energy(&points, simulation->soil.settings.gravity, datum);

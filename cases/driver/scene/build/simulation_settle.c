@@ -33,17 +33,6 @@ enum { SETTLE_CHECK = 50, RELAX_CHECK = 10 };
 /* A single body counts in the limit of relaxation as so much of what is left of it. */
 #define BODY_SHARE 0.1
 
-static mor_measure_points points_of(const mor_simulation *simulation)
-{
-    double *const *data = simulation->soil.set.data;
-    return (mor_measure_points){.n_points = simulation->soil.set.n_particles,
-                                .dimension = simulation->the_case->dimension,
-                                .spacing = simulation->the_case->spacing,
-                                .position = data[MOR_FIELD_POSITION],
-                                .mass = data[MOR_FIELD_MASS],
-                                .density = data[MOR_FIELD_DENSITY]};
-}
-
 /* The strictest settling that a region asks for; false when none does. Relaxation when a region asks for that. */
 static bool find_settling(const mor_case *the_case, mor_settling *it)
 {
@@ -92,7 +81,7 @@ static bool starts_without_stress(const mor_case *the_case)
 /* The speed below which the soil is at rest, and the period of the wave of which the depth is a quarter. */
 static mor_status find_limits(mor_context *context, const mor_simulation *simulation, mor_settling *it)
 {
-    const mor_measure_points points = points_of(simulation);
+    const mor_measure_points points = mor_simulation_points(simulation, 0);
     double origin[3];
     double height = 0.0;
     double slowest = simulation->soil.sound_speed;
@@ -150,7 +139,7 @@ static mor_status stop_motion(mor_context *context, mor_simulation *simulation, 
 static mor_status stop_at_peak(mor_context *context, mor_simulation *simulation, mor_settling *it)
 {
     const double datum[3] = {0.0, 0.0, 0.0};
-    mor_measure_points points = points_of(simulation);
+    mor_measure_points points = mor_simulation_points(simulation, 0);
     double energies[3];
     points.n_threads = context->n_threads;
     mor_simulation_bodies_energy(&simulation->bodies, datum, &energies[0], &energies[1], &energies[2]);
@@ -176,7 +165,7 @@ static void damp_locally(mor_simulation *simulation, mor_settling *it)
  * as the force it becomes in a quarter of the longest period. */
 static mor_status measure(mor_context *context, const mor_simulation *simulation, mor_settling *it)
 {
-    const mor_measure_points points = points_of(simulation);
+    const mor_measure_points points = mor_simulation_points(simulation, 0);
     mor_settle_sample sample = {.time = mor_schedule_time(&simulation->schedule)};
     MOR_TRY(context,
             mor_measure_speed(context, &points, simulation->soil.set.data[MOR_FIELD_VELOCITY], 99.0, &it->speed));
