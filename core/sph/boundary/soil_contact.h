@@ -138,18 +138,18 @@ typedef struct mor_soil_contact {
     double *mean_velocity;    /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: a wall that does not rotate */
     double *sums;             /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
     double *stick;            /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *grip;             /* shape [capacity * 8]; mirrored part of the motion across the patch: 0 where it does not
-                               * pull at soil that leaves it, else 1; unit 1 */
-    double *acceleration;     /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
+    double *grip;          /* shape [capacity * 8]; mirrored part of the motion across the patch: 0 where it would have
+                               * to pull and does not, else 1; unit 1 */
+    double *acceleration;  /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
                               * patch has its own part in, m/s2 */
-    double *divergence;       /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
+    double *divergence;    /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
                                * NULL with uniform stress */
-    double *given;            /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
-    double *repulsion;        /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
-    double *barrier_steps;    /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
-    const int8_t *sleep;      /* shape [clusters]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
-    int64_t capacity;         /* slots that the arrays above have room for */
-    int dimension;            /* 2 or 3 */
+    double *given;         /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
+    double *repulsion;     /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
+    double *barrier_steps; /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
+    const int8_t *sleep;   /* shape [clusters]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
+    int64_t capacity;      /* slots that the arrays above have room for */
+    int dimension;         /* 2 or 3 */
     mor_wall_stress stress;
     mor_soil_barrier barrier;
     double longest_step; /* that the barrier allowed in the last step, s; infinite without */

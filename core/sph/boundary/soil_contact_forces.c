@@ -229,9 +229,8 @@ typedef struct mirrored {
     double along, across;
 } mirrored;
 
-/* Adds the acceleration of one particle by the wall to what the continued stress gave. A boundary that does not pull at
- * soil is no part of it while they separate: mirrored, the motion away from it would raise the tension that drives
- * it. */
+/* Adds the acceleration of one particle by the wall to what the continued stress gave. Where a boundary that only
+ * presses would have to pull, it is none: mirrored, motion away from it would raise the tension that drives it. */
 static mirrored find_boundary_acceleration(const boundary_terms *p, const double *record, double *acceleration)
 {
     const double *gradient = p->gradient;
@@ -290,7 +289,7 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
     for (int a = 0; a < 3; ++a) {
         acceleration[a] = along * normal[a] + tangential[a];
     }
-    return (mirrored){stick, is_pulled && !(closing > 0.0) ? 0.0 : 1.0};
+    return (mirrored){stick, is_pulled ? 0.0 : 1.0};
 }
 
 /* In a corner the normals of all walls direct what the sums of one give along another. The stress acts on the wall
