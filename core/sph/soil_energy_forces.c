@@ -55,7 +55,7 @@ static void audit_lane(const mor_soil_contact *contact, mor_wall_friction fricti
         force += contact->barrier.is_on ? contact->repulsion[3 * lane + a] : 0.0;
         across[a] = normal * gradient[a];
         along[a] = stick * (relative[a] - across[a]);
-        across[a] *= contact->grip[lane];
+        across[a] *= contact->closure[lane];
         taken[LOST] -= force * (contact->is_wall ? middle[a] - velocity[a] : middle[a]);
         taken[GIVEN] -= contact->is_wall ? force * velocity[a] : 0.0;
     }

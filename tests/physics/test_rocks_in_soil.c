@@ -49,9 +49,9 @@ static const char slope[] =
     "  material = { model = 'rigid'; density = 2600; }; } );"
     "probes = ( { type = 'largest_speed'; } );";
 
-/* A rock that does not pull at the soil bears less of it than one that does, and no more is to happen: m/s, a hundredth
- * of what it was, up to 0.32 m/s, while motion away from the rock was mirrored where it did not pull, and raised the
- * tension that drove it. */
+/* A rock that does not pull at the soil bears less of it than one that does, and no more is to happen: five
+ * times the 0.1 mm/s that settling leaves. It was 0.16 to 0.32 m/s while motion away from the rock was mirrored where
+ * it did not pull, and raised the tension that drove it. */
 static void cohesive_slope_stands_around_a_rock_that_does_not_pull(void **state)
 {
     static const char *const frictions[][2] = {{"bodies[0].friction_coefficient=0.5"},
@@ -65,7 +65,7 @@ static void cohesive_slope_stands_around_a_rock_that_does_not_pull(void **state)
             scene_advance(it, 0.1 * part);
             fastest = fmax(fastest, scene_probe(it, "largest_speed"));
         }
-        scene_expect_near("largest speed", fastest, 0.0, 2e-3);
+        scene_expect_near("largest speed", fastest, 0.0, 5e-4);
         scene_free(it);
     }
 }

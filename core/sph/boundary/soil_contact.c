@@ -200,7 +200,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
     MOR_FREE(context, &contact->transfer);
     MOR_FREE(context, &contact->sums);
     MOR_FREE(context, &contact->stick);
-    MOR_FREE(context, &contact->grip);
+    MOR_FREE(context, &contact->closure);
     MOR_FREE(context, &contact->acceleration);
     MOR_FREE(context, &contact->divergence);
     MOR_FREE(context, &contact->given);
@@ -422,7 +422,7 @@ static mor_status grow_slots(mor_context *context, mor_soil_contact *contact, in
     MOR_TRY(context, MOR_NEW(context, &contact->patch_slots, capacity, "slots by patch"));
     MOR_TRY(context, MOR_NEW(context, &contact->sums, n_lanes * MOR_KERNEL_SUMS, "wall sums"));
     MOR_TRY(context, MOR_NEW(context, &contact->stick, n_lanes, "wall stick"));
-    MOR_TRY(context, MOR_NEW(context, &contact->grip, n_lanes, "wall grip"));
+    MOR_TRY(context, MOR_NEW(context, &contact->closure, n_lanes, "wall closure"));
     MOR_TRY(context, MOR_NEW(context, &contact->acceleration, n_lanes * 3, "boundary forces"));
     MOR_TRY(context, MOR_NEW(context, &contact->divergence, n_continued * 6, "stress divergence at walls"));
     MOR_TRY(context, MOR_NEW(context, &contact->mean_velocity, n_own_velocities * 3, "velocity of a boundary"));

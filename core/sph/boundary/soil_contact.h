@@ -138,18 +138,17 @@ typedef struct mor_soil_contact {
     double *mean_velocity;    /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: a wall that does not rotate */
     double *sums;             /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
     double *stick;            /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *grip;          /* shape [capacity * 8]; mirrored part of the motion across the patch: 0 where it would have
-                               * to pull and does not, else 1; unit 1 */
-    double *acceleration;  /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
+    double *closure;          /* shape [capacity * 8]; mirrored part of the normal motion: 0 open, 1 closed; unit 1 */
+    double *acceleration;     /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
                               * patch has its own part in, m/s2 */
-    double *divergence;    /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
+    double *divergence;       /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
                                * NULL with uniform stress */
-    double *given;         /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
-    double *repulsion;     /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
-    double *barrier_steps; /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
-    const int8_t *sleep;   /* shape [clusters]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
-    int64_t capacity;      /* slots that the arrays above have room for */
-    int dimension;         /* 2 or 3 */
+    double *given;            /* shape [capacity * 8, MOR_SHARES]; units of the enum; NULL: wall */
+    double *repulsion;        /* shape [capacity * 8, 3]; barrier force on the soil, N (N/m); NULL without barrier */
+    double *barrier_steps;    /* shape [capacity]; longest steps by the barrier in blocks of slots, s; NULL without */
+    const int8_t *sleep;      /* shape [clusters]; which soil sleeps, MOR_SLEEP_...; borrowed; NULL: all is awake */
+    int64_t capacity;         /* slots that the arrays above have room for */
+    int dimension;            /* 2 or 3 */
     mor_wall_stress stress;
     mor_soil_barrier barrier;
     double longest_step; /* that the barrier allowed in the last step, s; infinite without */
@@ -333,7 +332,7 @@ void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *con
                                      const mor_pair_constants *constants, const double *records,
                                      const mor_relation *inner, const mor_pair_singles *singles);
 
-/** Adds the boundary's part of the acceleration and sets stick and grip, and force and moment of the patches.
+/** Adds the boundary's part of the acceleration and sets stick and closure, and force and moment of the patches.
  *  @param contact      [in,out]  sums must be current
  *  @param acceleration [in,out]  shape [n_particles, 3], unit m/s2; added to */
 void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact, const mor_contact_soil *soil,
@@ -371,7 +370,7 @@ void mor_soil_contact_share_forces(mor_context *context, mor_soil_contact *conta
                                    const mor_pair_constants *constants, const double *records, int64_t n_particles);
 
 /** Adds the wall's part of the velocity gradient and of the density rate.
- *  @param contact           [in,out]  sums, stick and grip must be current
+ *  @param contact           [in,out]  sums, stick and closure must be current
  *  @param records           [in]      shape [n_particles padded to 8, 16]; with the new velocities, units of
  *                                      MOR_RECORD_...
  *  @param n_particles       [in]      number of soil particles
@@ -383,7 +382,7 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
 /** Adds what the boundary closes of the moments of the kernel gradient. Across it velocities are mirrored, unless it
  *  would have to pull; so they are along it where the soil sticks. Where it slips, they continue along the boundary as
  *  in the soil.
- *  @param contact     [in]      sums, stick and grip must be current
+ *  @param contact     [in]      sums, stick and closure must be current
  *  @param n_particles [in]      number of soil particles
  *  @param closed      [in,out]  shape [n_particles, 6], unit 1; what is mirrored is added
  *  @param continued   [in,out]  shape [n_particles, 6], unit 1; what continues is added */

@@ -339,7 +339,7 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
         const mirrored parts = find_boundary_acceleration(&p, record, own);
         contact->stick[lane] = parts.along;
-        contact->grip[lane] = parts.across;
+        contact->closure[lane] = parts.across;
         for (int a = 0; a < 3; ++a) {
             acceleration[i * 3 + a] += contact->barrier.is_on ? own[a] + repulsion[a] : own[a];
         }
@@ -428,7 +428,7 @@ static void add_slot_gradient(const mor_soil_contact *contact, int64_t slot, con
         const double *record = records + i * MOR_RECORD_SIZE;
         double difference[3];
         mirrored_difference(mor_soil_contact_velocity(contact, lane), record, gradient,
-                            (mirrored){contact->stick[lane], contact->grip[lane]}, difference);
+                            (mirrored){contact->stick[lane], contact->closure[lane]}, difference);
         for (int a = 0; a < 9; ++a) {
             velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
         }
@@ -456,7 +456,7 @@ static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int6
         const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
         const double *gradient = sums + MOR_KERNEL_SUM_GRADIENT;
         const double stick = contact->stick[lane];
-        const double grip = contact->grip[lane];
+        const double closure = contact->closure[lane];
         double across = 0.0;
         double along = 0.0;
         if (!split_moment(sums, contact->dimension, &across, &along)) {
@@ -466,8 +466,8 @@ static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int6
         for (int a = 0; a < 6; ++a) {
             const double square = gradient[a % 3] * gradient[a < 3 ? a : (a - 2) % 3] / length2;
             const double flat = along * ((a < contact->dimension ? 1.0 : 0.0) - square);
-            closed[6 * (first + k) + a] += grip * across * square + stick * flat;
-            continued[6 * (first + k) + a] += grip * (1.0 - stick) * flat;
+            closed[6 * (first + k) + a] += closure * across * square + stick * flat;
+            continued[6 * (first + k) + a] += closure * (1.0 - stick) * flat;
         }
     }
 }

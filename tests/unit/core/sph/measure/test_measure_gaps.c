@@ -71,7 +71,7 @@ static mor_measure_gaps measure(const lattice *it)
         position[3 * n + 1] = it->stretch * SPACING * (double)(k / it->n[0] % it->n[1]);
         position[3 * n + 2] = it->stretch * SPACING * (double)(k / it->n[0] / it->n[1]);
         mass[n] = 2000.0 * cube;
-        density[n] = 2000.0 / it->swell;
+        density[n] = it->swell > 0.0 ? 2000.0 / it->swell : NAN;
         n += 1;
     }
     const mor_measure_points points = {.n_points = n,
