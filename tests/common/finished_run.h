@@ -4,7 +4,7 @@
 #define MOR_TESTS_COMMON_FINISHED_RUN_H
 
 #include "core/io/snapshot.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "core/io/table.h"
 #include "tests/common/run_folder.h"
 

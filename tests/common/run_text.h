@@ -3,7 +3,7 @@
 #ifndef MOR_TESTS_COMMON_RUN_TEXT_H
 #define MOR_TESTS_COMMON_RUN_TEXT_H
 
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
 

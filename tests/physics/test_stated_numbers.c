@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 /* Numbers that a newcomer compares with what the program prints: those of README and of the first case. Each is
  * computed by the command that stands beside it, and must round to the digits of the page. */
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "tests/common/program.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "cases/driver/picture/view/picture.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/io/snapshot.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "tests/common/run_folder.h"
 
 #include <math.h>

@@ -21,7 +21,7 @@ DOORS = {
     r"embree3/.*": ("cases/driver/picture/view/scene.c", "relaxation/mesh/mesh_distance.c"),
     r"(libpng\d*/)?png\.h": ("cases/driver/picture/draw/png_file.c",),
     r"cairo(/cairo)?(-\w+)?\.h": ("cases/driver/picture/draw/canvas.c",),
-    r"jansson\.h": ("core/io/summary.c",),
+    r"jansson\.h": ("core/io/summary/summary.c",),
     r"muParser.*\.h": ("core/formula/formula.c",),
     r"(gdal/)?(gdal|cpl_|ogr).*\.h": ("relaxation/terrain/terrain_read.c",),
     r"assimp/.*": ("relaxation/mesh/mesh_read.c",),

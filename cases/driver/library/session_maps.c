@@ -4,7 +4,7 @@
 #include "cases/driver/library/session_internal.h"
 
 #include "cases/driver/map/map_ensemble.h"
-#include "cases/driver/sweep/sweep_write.h"
+#include "cases/driver/sweep/result/sweep_write.h"
 #include "core/base/memory.h"
 #include "core/base/units.h"
 

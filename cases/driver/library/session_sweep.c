@@ -4,7 +4,7 @@
 #include "cases/driver/library/session_sweep_internal.h"
 
 #include "cases/driver/run/wall_time.h"
-#include "cases/driver/sweep/sweep_charts.h"
+#include "cases/driver/sweep/result/sweep_charts.h"
 #include "cases/driver/sweep/sweep_keys.h"
 #include "cases/driver/sweep/sweep_pool.h"
 #include "core/base/hash.h"
@@ -234,10 +234,19 @@ static mor_status conclude(mor_session_sweeper *it, bool is_ended)
         fprintf(session->output, "the sweep was stopped; it can be resumed, and has no statistics yet\n");
         return MOR_OK;
     }
-    MOR_TRY(context, mor_sweep_write_statistics(context, &it->table, it->folder));
-    MOR_TRY(context, mor_sweep_write_summary(context, &it->table, &it->provenance, it->folder));
-    MOR_TRY(context, mor_sweep_write_report(context, &it->table, &it->provenance, session->output));
-    return mor_sweep_charts_draw(context, &it->table, it->folder, session->output);
+    mor_sweep_warnings warnings = {.n = 0};
+    mor_status status = mor_sweep_write_statistics(context, &it->table, it->folder);
+    if (status == MOR_OK) {
+        status = mor_sweep_warnings_collect(context, &it->table, it->folder, &warnings);
+    }
+    if (status == MOR_OK) {
+        status = mor_sweep_write_summary(context, &it->table, &it->provenance, &warnings, it->folder);
+    }
+    if (status == MOR_OK) {
+        status = mor_sweep_write_report(context, &it->table, &it->provenance, &warnings, session->output);
+    }
+    mor_sweep_warnings_clear(context, &warnings);
+    return status == MOR_OK ? mor_sweep_charts_draw(context, &it->table, it->folder, session->output) : status;
 }
 
 static mor_status run_sweep(mor_session_sweeper *it, mor_session_sweep_counts *found)

@@ -121,7 +121,7 @@ static mor_status check_folders(mor_session_sweeper *it)
         char folder[MOR_PATH_BYTES];
         char difference[DIFFERENCE_BYTES];
         uint64_t hash = 0;
-        MOR_TRY(context, mor_session_sweep_find_folder(context, it, m, folder));
+        MOR_TRY(context, mor_sweep_write_find_folder(context, it->folder, m, folder));
         MOR_TRY(context, mor_run_files_hash_folder(context, folder, &hash));
         if (hash != 0 && it->case_hashes[m] != 0 && hash != it->case_hashes[m]) {
             MOR_TRY(context, mor_session_sweep_explain(it, m, difference, sizeof difference));

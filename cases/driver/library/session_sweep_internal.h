@@ -4,8 +4,8 @@
 #define MOR_CASES_DRIVER_LIBRARY_SESSION_SWEEP_INTERNAL_H
 
 #include "cases/driver/library/session_internal.h"
-#include "cases/driver/sweep/sweep_catalog.h"
-#include "cases/driver/sweep/sweep_write.h"
+#include "cases/driver/sweep/result/sweep_catalog.h"
+#include "cases/driver/sweep/result/sweep_write.h"
 
 #include <pthread.h>
 
@@ -58,13 +58,6 @@ mor_status mor_session_sweep_compare(mor_session_sweeper *sweeper, const char *p
  *  @param text_bytes [in]  room in bytes, > 0
  *  Returns: MOR_OK; what reading the case returns. */
 mor_status mor_session_sweep_explain(mor_session_sweeper *sweeper, int member, char *text, size_t text_bytes);
-
-/** Finds the folder of a member.
- *  @param member [in]   0 <= member < n_members
- *  @param path   [out]  shape [MOR_PATH_BYTES]; zero-terminated
- *  Returns: MOR_OK; MOR_ERROR_IO when it is too long. */
-mor_status mor_session_sweep_find_folder(mor_context *context, const mor_session_sweeper *sweeper, int member,
-                                         char *path);
 
 /** Reads the case of a member: notes its hash and probes, or why it is refused, which makes it a failed one.
  *  @param sweeper [in,out]  one mor_session_sweeper

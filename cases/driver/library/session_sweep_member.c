@@ -100,21 +100,12 @@ void mor_session_sweep_check_member(void *sweeper, int member)
 
 /* ---- What a folder holds ----------------------------------------------------------------------------------------- */
 
-mor_status mor_session_sweep_find_folder(mor_context *context, const mor_session_sweeper *it, int member, char *path)
-{
-    char number[16];
-    mor_sweep_write_number(member, number);
-    const int n = snprintf(path, MOR_PATH_BYTES, "%s/members/%s", it->folder, number);
-    MOR_CHECK(context, n > 0 && n < MOR_PATH_BYTES, MOR_ERROR_IO, "the path of the member's folder is too long");
-    return MOR_OK;
-}
-
 static mor_status compare_folder(mor_session_sweeper *it, int member, mor_session *own, mor_case_difference *first)
 {
     char folder[MOR_PATH_BYTES];
     mor_context *context = &own->context;
     MOR_TRY(context, load_member(it, member, own));
-    MOR_TRY(context, mor_session_sweep_find_folder(context, it, member, folder));
+    MOR_TRY(context, mor_sweep_write_find_folder(context, it->folder, member, folder));
     return mor_run_files_compare_folder(context, &own->files, own->the_case.registry, folder, first);
 }
 
@@ -224,7 +215,7 @@ static bool is_begun(mor_context *context, const char *folder)
 static mor_status take_up(mor_session_sweeper *it, int member, mor_session *own, char *folder, char *summary)
 {
     mor_context *context = &own->context;
-    MOR_TRY(context, mor_session_sweep_find_folder(context, it, member, folder));
+    MOR_TRY(context, mor_sweep_write_find_folder(context, it->folder, member, folder));
     MOR_TRY(context, mor_durable_file_join(context, summary, folder, MOR_SUMMARY_FILE));
     MOR_TRY(context, load_member(it, member, own));
     return check_case(it, member, own, folder);

@@ -6,7 +6,7 @@
 #include "cases/driver/picture/draw/ticks.h"
 #include "cases/driver/picture/view/picture.h"
 #include "core/base/memory.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "core/io/table.h"
 
 #include <math.h>

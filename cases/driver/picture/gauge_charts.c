@@ -8,7 +8,7 @@
 #include "cases/driver/picture/gauge_map_picture.h"
 #include "cases/driver/picture/view/picture.h"
 #include "core/base/memory.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "core/io/table.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "cases/driver/probe/probe.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 
 #include <fcntl.h>
 #include <inttypes.h>

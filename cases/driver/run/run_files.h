@@ -13,7 +13,7 @@
 #include "cases/driver/scene/build/simulation_build.h"
 #include "core/io/checkpoint.h"
 #include "core/io/snapshot.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "core/io/table.h"
 
 /** @file

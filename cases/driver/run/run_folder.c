@@ -4,7 +4,7 @@
 
 #include "core/io/checkpoint.h"
 #include "core/io/durable_file.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 
 #include <fcntl.h>
 #include <string.h>

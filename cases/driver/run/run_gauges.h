@@ -5,7 +5,7 @@
 
 #include "cases/driver/gauge/gauge.h"
 #include "cases/driver/gauge/gauge_table.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "core/io/table.h"
 
 /** @file

@@ -9,7 +9,7 @@
 #include "cases/driver/probe/probe.h"
 #include "cases/driver/run/run_table.h"
 #include "core/base/hash.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "core/material/rate_integration.h"
 
 #include <math.h>

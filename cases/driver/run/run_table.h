@@ -4,7 +4,7 @@
 #define MOR_CASES_DRIVER_RUN_RUN_TABLE_H
 
 #include "cases/driver/case/case.h"
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 
 #include <stdio.h>
 

@@ -1,11 +1,11 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 
 #include "core/base/hash.h"
 #include "core/base/memory.h"
 #include "core/io/durable_file.h"
-#include "core/io/summary_consistency.h"
+#include "core/io/summary/summary_consistency.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -14,8 +14,6 @@
 
 #define FINISHED "finished"
 #define FAILED "failed"
-
-/* ---- writing ----------------------------------------------------------------------------------------------------- */
 
 static json_t *make_number(double value)
 {
@@ -249,12 +247,10 @@ static json_t *make_settling(const mor_summary_settling *it)
 /* The whole document, NULL when memory runs out or two names are the same. */
 static json_t *make_document(mor_context *context, const mor_summary *summary)
 {
-    json_t *speed = json_object();
-    json_t *memory = json_object();
     json_t *document = json_object();
-    int error = add_member(speed, "particle_steps_per_second", make_number(summary->particle_steps_per_second));
-    error |= add_member(memory, "bytes_per_fine_particle", make_number(summary->bytes_per_fine_particle));
-    error |= add_member(document, "version", json_integer(MOR_SUMMARY_VERSION));
+    json_t *speed = json_pack("{so}", "particle_steps_per_second", make_number(summary->particle_steps_per_second));
+    json_t *memory = json_pack("{so}", "bytes_per_fine_particle", make_number(summary->bytes_per_fine_particle));
+    int error = add_member(document, "version", json_integer(MOR_SUMMARY_VERSION));
     error |= add_member(document, "status", json_string(summary->failure != NULL ? FAILED : FINISHED));
     error |= add_member(document, "failure", make_failure(context, summary->failure));
     error |= add_member(document, "results", make_results(context, summary));
@@ -509,7 +505,7 @@ mor_status mor_summary_check(mor_context *context, const char *path)
 
 static double read_number(const json_t *number)
 {
-    return json_is_null(number) ? NAN : json_number_value(number);
+    return json_is_number(number) ? json_number_value(number) : NAN;
 }
 
 mor_status mor_summary_read_outcome(mor_context *context, const char *path, mor_summary_outcome *outcome)
@@ -522,6 +518,18 @@ mor_status mor_summary_read_outcome(mor_context *context, const char *path, mor_
     outcome->n_warnings = (int)json_array_size(json_object_get(document, "warnings"));
     for (size_t k = 0; k < json_array_size(expectations); ++k) {
         outcome->n_missed += !json_is_true(json_object_get(json_array_get(expectations, k), "pass"));
+    }
+    json_decref(document);
+    return MOR_OK;
+}
+
+mor_status mor_summary_visit_warnings(mor_context *context, const char *path, mor_summary_visitor visit, void *user)
+{
+    json_t *document = NULL;
+    MOR_TRY(context, load_document(context, path, &document));
+    const json_t *warnings = json_object_get(document, "warnings");
+    for (size_t k = 0; k < json_array_size(warnings); ++k) {
+        visit(user, json_string_value(json_array_get(warnings, k)));
     }
     json_decref(document);
     return MOR_OK;
@@ -556,9 +564,7 @@ mor_status mor_summary_read_statistics(mor_context *context, const char *path, c
         statistics->time_of_maximum = read_number(json_object_get(result, "time_of_maximum"));
         statistics->time_of_minimum = read_number(json_object_get(result, "time_of_minimum"));
         statistics->mean = read_number(json_object_get(result, "mean"));
-        statistics->impulse = json_is_number(json_object_get(result, "impulse"))
-                                  ? json_number_value(json_object_get(result, "impulse"))
-                                  : NAN;
+        statistics->impulse = read_number(json_object_get(result, "impulse"));
         statistics->window[0] = read_number(json_array_get(window, 0));
         statistics->window[1] = read_number(json_array_get(window, 1));
         statistics->interval = (int)json_integer_value(json_object_get(result, "interval"));

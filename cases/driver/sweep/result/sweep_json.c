@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* sweep.json: what summary.json is of a run. Nothing is read back, so it is printed member by member. */
-#include "cases/driver/sweep/sweep_write.h"
+#include "cases/driver/sweep/result/sweep_write.h"
 
 #include "core/base/hash.h"
 
@@ -189,6 +189,20 @@ static mor_status write_failed(mor_context *context, const mor_sweep_table *tabl
     return MOR_OK;
 }
 
+static void write_warnings(const mor_sweep_warnings *warnings, FILE *out)
+{
+    fprintf(out, "  \"warnings\": [");
+    for (int k = 0; k < warnings->n; ++k) {
+        char number[16];
+        mor_sweep_write_number(warnings->items[k].members[0], number);
+        write_word(k > 0 ? ",\n    {" : "\n    {", "text", warnings->items[k].text, out);
+        fprintf(out, ", \"members\": %d", warnings->items[k].n_members);
+        write_word(", ", "first", number, out);
+        fprintf(out, "}");
+    }
+    fprintf(out, "],\n");
+}
+
 /* The files that cases were read from, each once. */
 static mor_status write_inputs(mor_context *context, const mor_sweep_design *design,
                                const mor_sweep_provenance *provenance, FILE *out)
@@ -216,7 +230,7 @@ static mor_status write_inputs(mor_context *context, const mor_sweep_design *des
 }
 
 static mor_status write_all(mor_context *context, mor_sweep_table *table, const mor_sweep_provenance *provenance,
-                            FILE *out)
+                            const mor_sweep_warnings *warnings, FILE *out)
 {
     const mor_sweep *sweep = table->design->sweep;
     mor_sweep_counts counts;
@@ -231,6 +245,7 @@ static mor_status write_all(mor_context *context, mor_sweep_table *table, const 
     }
     fprintf(out, "],\n");
     MOR_TRY(context, write_failed(context, table, provenance, out));
+    write_warnings(warnings, out);
     fprintf(out, "  \"provenance\": ");
     write_word("{", "version", provenance->version, out);
     write_word(", ", "commit", provenance->commit, out);
@@ -243,13 +258,13 @@ static mor_status write_all(mor_context *context, mor_sweep_table *table, const 
 }
 
 mor_status mor_sweep_write_summary(mor_context *context, mor_sweep_table *table, const mor_sweep_provenance *provenance,
-                                   const char *folder)
+                                   const mor_sweep_warnings *warnings, const char *folder)
 {
     char path[MOR_PATH_BYTES];
     mor_durable_file file;
     MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_SWEEP_SUMMARY_FILE));
     MOR_TRY(context, mor_durable_file_open(context, &file, path));
-    const mor_status status = write_all(context, table, provenance, file.stream);
+    const mor_status status = write_all(context, table, provenance, warnings, file.stream);
     if (status != MOR_OK) {
         mor_durable_file_discard(&file);
         return status;

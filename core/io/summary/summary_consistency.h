@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_IO_SUMMARY_CONSISTENCY_H
-#define MOR_CORE_IO_SUMMARY_CONSISTENCY_H
+#ifndef MOR_CORE_IO_SUMMARY_SUMMARY_CONSISTENCY_H
+#define MOR_CORE_IO_SUMMARY_SUMMARY_CONSISTENCY_H
 
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 
 /** @file
  *  Whether a summary that is to be written is consistent. For the writer of summaries alone. */

@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SWEEP_SWEEP_CHARTS_H
-#define MOR_CASES_DRIVER_SWEEP_SWEEP_CHARTS_H
+#ifndef MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_CHARTS_H
+#define MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_CHARTS_H
 
-#include "cases/driver/sweep/sweep_table.h"
+#include "cases/driver/sweep/result/sweep_table.h"
 
 /** @file
  *  Charts of a sweep: each result over each variable that is a number, members as dots, means with their intervals. */

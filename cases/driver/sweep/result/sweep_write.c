@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Tables as comma-separated values (RFC 4180). */
-#include "cases/driver/sweep/sweep_write.h"
+#include "cases/driver/sweep/result/sweep_write.h"
 
 #include "core/base/hash.h"
 
@@ -12,6 +12,15 @@
 void mor_sweep_write_number(int member, char *text)
 {
     snprintf(text, 16, "%03d", member + 1);
+}
+
+mor_status mor_sweep_write_find_folder(mor_context *context, const char *folder, int member, char *path)
+{
+    char number[16];
+    mor_sweep_write_number(member, number);
+    const int n = snprintf(path, MOR_PATH_BYTES, "%s/members/%s", folder, number);
+    MOR_CHECK(context, n > 0 && n < MOR_PATH_BYTES, MOR_ERROR_IO, "the path of the member's folder is too long");
+    return MOR_OK;
 }
 
 /* ---- Commands ---------------------------------------------------------------------------------------------------- */

@@ -1,10 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SWEEP_SWEEP_TABLE_H
-#define MOR_CASES_DRIVER_SWEEP_SWEEP_TABLE_H
+#ifndef MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_TABLE_H
+#define MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_TABLE_H
 
+#include "cases/driver/sweep/result/sweep_statistics.h"
 #include "cases/driver/sweep/sweep_design.h"
-#include "cases/driver/sweep/sweep_statistics.h"
 
 /** @file
  *  What the members of a sweep gave, and what their groups say. */

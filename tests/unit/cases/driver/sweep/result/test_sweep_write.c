@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/sweep/sweep_charts.h"
-#include "cases/driver/sweep/sweep_write.h"
+#include "cases/driver/sweep/result/sweep_charts.h"
+#include "cases/driver/sweep/result/sweep_write.h"
 #include "tests/common/near.h"
 #include "tests/common/run_folder.h"
 
@@ -30,6 +30,10 @@ __attribute__((weak)) const char *__lsan_default_suppressions(void)
 /* Texts that a table or JSON must not take as they are. */
 #define ODD_TITLE "a \\\"title\\\", with \\\\ and \xff and \xc3\xa9"
 #define ODD_REASON "x.cfg:3: found \"a\", or b\nand\tc"
+
+/* Nine members warn alike. */
+static const mor_sweep_warnings warned = {
+    .n = 1, .items = {{.text = (char[]){"soil \"a\" moves"}, .members = {0, 1, 2, 3, 4, 5, 6, 7}, .n_members = 9}}};
 
 /* Two groups of three: content 10 % and 20 %, packings 1 to 3. */
 static void make(bench *b, run_folder *folder)
@@ -167,7 +171,8 @@ static void summary_is_json_and_tells_who_failed(void **state)
     bench b;
     make(&b, *state);
     fill(&b);
-    assert_int_equal(mor_sweep_write_summary(&b.folder->context, &b.table, &b.provenance, b.folder->path), MOR_OK);
+    assert_int_equal(mor_sweep_write_summary(&b.folder->context, &b.table, &b.provenance, &warned, b.folder->path),
+                     MOR_OK);
     char *text = load(&b, MOR_SWEEP_SUMMARY_FILE);
     assert_string_equal(skip_blanks(skip_value(skip_blanks(text))), "");
     assert_non_null(strstr(text, "\"members\": 6, \"used\": 5, \"failed\": 1, \"missed_expectations\": 1"));
@@ -175,6 +180,7 @@ static void summary_is_json_and_tells_who_failed(void **state)
         strstr(text, "\"member\": \"005\", \"reason\": \"x.cfg:3: found \\\"a\\\", or b\\u000aand\\u0009c\""));
     assert_non_null(strstr(text, "a \\\"title\\\", with \\\\ and ? and \xc3\xa9"));
     assert_non_null(strstr(text, "\"standard_deviation\": null")); /* one value */
+    assert_non_null(strstr(text, "{\"text\": \"soil \\\"a\\\" moves\", \"members\": 9, \"first\": \"001\"}"));
     free(text);
     clear(&b);
 }
@@ -297,7 +303,7 @@ static char *report(bench *b)
     size_t n_bytes = 0;
     FILE *stream = open_memstream(&text, &n_bytes);
     assert_non_null(stream);
-    assert_int_equal(mor_sweep_write_report(&b->folder->context, &b->table, &b->provenance, stream), MOR_OK);
+    assert_int_equal(mor_sweep_write_report(&b->folder->context, &b->table, &b->provenance, &warned, stream), MOR_OK);
     fclose(stream);
     return text;
 }
@@ -314,6 +320,17 @@ static void report_tells_groups_whose_members_are_all_alike(void **state)
     b.table.values[1] = b.table.values[2] = b.table.values[0];
     text = report(&b);
     assert_non_null(strstr(text, "in 1 group all members gave the same number: what varies within has no effect on"));
+    free(text);
+    clear(&b);
+}
+
+static void report_tells_what_members_warned_of(void **state)
+{
+    bench b;
+    make(&b, *state);
+    fill(&b);
+    char *text = report(&b);
+    assert_non_null(strstr(text, "\n9 members (001, 002, 003, 004, 005, 006, 007, 008, ...): soil \"a\" moves\n"));
     free(text);
     clear(&b);
 }
@@ -368,6 +385,7 @@ int main(void)
         WITH_FOLDER(absent_members_count_as_it_is_said),
         WITH_FOLDER(tables_have_a_cell_for_each_head),
         WITH_FOLDER(report_tells_groups_whose_members_are_all_alike),
+        WITH_FOLDER(report_tells_what_members_warned_of),
         WITH_FOLDER(commands_are_quoted_for_a_shell),
         WITH_FOLDER(charts_are_drawn_where_there_is_something_to_show),
     };

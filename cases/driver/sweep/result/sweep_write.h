@@ -1,9 +1,10 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SWEEP_SWEEP_WRITE_H
-#define MOR_CASES_DRIVER_SWEEP_SWEEP_WRITE_H
+#ifndef MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_WRITE_H
+#define MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_WRITE_H
 
-#include "cases/driver/sweep/sweep_table.h"
+#include "cases/driver/sweep/result/sweep_table.h"
+#include "cases/driver/sweep/result/sweep_warnings.h"
 #include "core/io/durable_file.h"
 
 /** @file
@@ -55,16 +56,25 @@ mor_status mor_sweep_write_members(mor_context *context, const mor_sweep_table *
 mor_status mor_sweep_write_statistics(mor_context *context, mor_sweep_table *table, const char *folder);
 
 /** Replaces sweep.json of a folder.
- *  @param folder [in]  zero-terminated
+ *  @param warnings [in]  of the members
+ *  @param folder   [in]  zero-terminated
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_sweep_write_summary(mor_context *context, mor_sweep_table *table, const mor_sweep_provenance *provenance,
-                                   const char *folder);
+                                   const mor_sweep_warnings *warnings, const char *folder);
 
-/** Prints the statistics of the results, a table for each, and the members that failed.
- *  @param out [in,out]  one open stream
+/** Prints the statistics of the results, a table for each, the members that failed, and what members warned of.
+ *  @param warnings [in]      of the members
+ *  @param out      [in,out]  one open stream
  *  Returns: MOR_OK; MOR_ERROR_IO when a path is too long. */
 mor_status mor_sweep_write_report(mor_context *context, mor_sweep_table *table, const mor_sweep_provenance *provenance,
-                                  FILE *out);
+                                  const mor_sweep_warnings *warnings, FILE *out);
+
+/** Finds the folder of a member.
+ *  @param folder [in]   of the sweep, zero-terminated
+ *  @param member [in]   0 <= member < n_members
+ *  @param path   [out]  shape [MOR_PATH_BYTES]; zero-terminated
+ *  Returns: MOR_OK; MOR_ERROR_IO when it is too long. */
+mor_status mor_sweep_write_find_folder(mor_context *context, const char *folder, int member, char *path);
 
 /** Writes the number of a member as its folder is named.
  *  @param member [in]   0 <= member < n_members

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/io/summary_consistency.h"
+#include "core/io/summary/summary_consistency.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "cases/driver/sweep/sweep_table.h"
+#include "cases/driver/sweep/result/sweep_table.h"
 
 #include "core/base/memory.h"
 

@@ -1,9 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SWEEP_SWEEP_CATALOG_H
-#define MOR_CASES_DRIVER_SWEEP_SWEEP_CATALOG_H
+#ifndef MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_CATALOG_H
+#define MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_CATALOG_H
 
-#include "cases/driver/sweep/sweep_table.h"
+#include "cases/driver/sweep/result/sweep_table.h"
 
 /** @file
  *  The probes that the cases of a sweep have, and the columns that follow from what the sweep file asks for. */

@@ -1,12 +1,12 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* What is printed of a sweep that has come to its end. */
-#include "cases/driver/sweep/sweep_write.h"
+#include "cases/driver/sweep/result/sweep_write.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { GROUP_BYTES = 256, CELL = 12, FAILED_SHOWN_MAX = 20, WARNED_SHOWN_MAX = 8 };
+enum { GROUP_BYTES = 256, CELL = 12, FAILED_SHOWN_MAX = 20 };
 
 /* A number in a cell; "-" where there is none. */
 static void print_cell(double value, FILE *out)
@@ -128,19 +128,25 @@ static mor_status print_failed(mor_context *context, const mor_sweep_table *tabl
     return MOR_OK;
 }
 
-/* Which members have warnings, as many as fit a line. */
-static void print_warned(const mor_sweep_table *table, int n_warned, FILE *out)
+/* What was warned of, and who did, as many as fit a line. */
+static void print_warnings(const mor_sweep_warnings *warnings, FILE *out)
 {
-    int n = 0;
-    fprintf(out, "; %d %s (", n_warned, n_warned == 1 ? "has warnings" : "have warnings");
-    for (int m = 0; m < table->design->n_members; ++m) {
-        char number[16];
-        if (mor_sweep_table_is_used(table, m) && table->outcomes[m].n_warnings > 0 && ++n <= WARNED_SHOWN_MAX) {
-            mor_sweep_write_number(m, number);
-            fprintf(out, "%s%s", n > 1 ? ", " : "", number);
-        }
+    if (warnings->n > 0) {
+        fprintf(out, "\nwarnings of members, each in the words of the first; numbers differ from member to member\n");
     }
-    fprintf(out, "%s), see members/NNN/summary.json", n > WARNED_SHOWN_MAX ? ", ..." : "");
+    for (int k = 0; k < warnings->n; ++k) {
+        const mor_sweep_warning *it = &warnings->items[k];
+        fprintf(out, "%d member%s (", it->n_members, it->n_members == 1 ? "" : "s");
+        for (int m = 0; m < it->n_members && m < MOR_SWEEP_WARNING_MEMBERS; ++m) {
+            char number[16];
+            mor_sweep_write_number(it->members[m], number);
+            fprintf(out, "%s%s", m > 0 ? ", " : "", number);
+        }
+        fprintf(out, "%s): %s\n", it->n_members > MOR_SWEEP_WARNING_MEMBERS ? ", ..." : "", it->text);
+    }
+    if (warnings->n_left_out > 0) {
+        fprintf(out, "there are more warnings: see members/NNN/summary.json\n");
+    }
 }
 
 static void print_counts(const mor_sweep_table *table, FILE *out)
@@ -162,13 +168,13 @@ static void print_counts(const mor_sweep_table *table, FILE *out)
         fprintf(out, "; %d missed an expectation of their case and are used", n_missed);
     }
     if (n_warned > 0) {
-        print_warned(table, n_warned, out);
+        fprintf(out, "; %d %s, see above", n_warned, n_warned == 1 ? "has warnings" : "have warnings");
     }
     fprintf(out, "\n");
 }
 
 mor_status mor_sweep_write_report(mor_context *context, mor_sweep_table *table, const mor_sweep_provenance *provenance,
-                                  FILE *out)
+                                  const mor_sweep_warnings *warnings, FILE *out)
 {
     const mor_sweep_design *design = table->design;
     const int width = find_width(design);
@@ -186,6 +192,7 @@ mor_status mor_sweep_write_report(mor_context *context, mor_sweep_table *table, 
             "few members; used: members that the numbers are of; absent: ran to their end, had nothing to measure\n",
             100.0 * MOR_SWEEP_CONFIDENCE);
     MOR_TRY(context, print_failed(context, table, provenance, out));
+    print_warnings(warnings, out);
     print_counts(table, out);
     return MOR_OK;
 }

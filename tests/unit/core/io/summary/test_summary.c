@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#include "core/io/summary.h"
+#include "core/io/summary/summary.h"
 #include "tests/common/run_folder.h"
 
 #include <math.h>

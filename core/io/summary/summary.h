@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_IO_SUMMARY_H
-#define MOR_CORE_IO_SUMMARY_H
+#ifndef MOR_CORE_IO_SUMMARY_SUMMARY_H
+#define MOR_CORE_IO_SUMMARY_SUMMARY_H
 
 #include "core/base/context.h"
 
@@ -172,6 +172,18 @@ typedef struct mor_summary_outcome {
  *  @param outcome [out]     one record
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_summary_read_outcome(mor_context *context, const char *path, mor_summary_outcome *outcome);
+
+/** Receives a warning.
+ *  @param user [in,out]  whatever was handed over with the visitor
+ *  @param text [in]      zero-terminated; to be copied if it is kept */
+typedef void (*mor_summary_visitor)(void *user, const char *text);
+
+/** Hands over the warnings in a summary, in order, after checking the file.
+ *  @param path  [in]      zero-terminated
+ *  @param visit [in]      receives each of them
+ *  @param user  [in,out]  handed over as well
+ *  Returns: MOR_OK; MOR_ERROR_IO. */
+mor_status mor_summary_visit_warnings(mor_context *context, const char *path, mor_summary_visitor visit, void *user);
 
 /** Reads the statistics of a probe from a summary after checking the file.
  *  @param path       [in]      zero-terminated

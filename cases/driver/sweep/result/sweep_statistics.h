@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CASES_DRIVER_SWEEP_SWEEP_STATISTICS_H
-#define MOR_CASES_DRIVER_SWEEP_SWEEP_STATISTICS_H
+#ifndef MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_STATISTICS_H
+#define MOR_CASES_DRIVER_SWEEP_RESULT_SWEEP_STATISTICS_H
 
 /** @file
  *  Statistics of the members of a group. What too few values cannot tell is not a number. Equations:
