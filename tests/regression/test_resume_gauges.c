@@ -120,6 +120,37 @@ static void summary_tells_peaks_and_filters(void **state)
     free(bytes);
 }
 
+/* A peak at the end of a run may not be the largest load. The soil reaches the wall at 4 ms, and its first blow is over
+ * at 17 ms; nothing loads the ball from below. */
+static void loads_that_grow_at_the_end_are_told(void **state)
+{
+    static const struct {
+        const char *setting;
+        bool grows;
+    } rows[] = {{"end=10 ms", true}, {"end=60 ms", false}};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    finished_run_store_text(folder, text, path);
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        char summary[MOR_PATH_BYTES];
+        size_t n_bytes = 0;
+        const session_run run = {.case_path = path,
+                                 .name = rows[k].setting + strlen("end="),
+                                 .settings = &rows[k].setting,
+                                 .n_settings = 1,
+                                 .stop_at = NAN,
+                                 .n_threads = 1};
+        assert_int_equal(session_run_do(folder, &run, run.name), MOR_SESSION_FINISHED);
+        finished_run_file(folder, summary, run.name, MOR_SUMMARY_FILE);
+        char *bytes = (char *)run_folder_load(summary, &n_bytes);
+        assert_non_null(bytes);
+        assert_int_equal(strstr(bytes, "the load on gauge 'mean' was still growing") != NULL, rows[k].grows);
+        assert_int_equal(strstr(bytes, "the load on gauge 'low_pass' was still growing") != NULL, rows[k].grows);
+        assert_null(strstr(bytes, "the load on gauge 'ball'"));
+        free(bytes);
+    }
+}
+
 /* boulders.csv holds what the probes tell of the one body. */
 static void boulders_have_a_line_each(void **state)
 {
@@ -182,6 +213,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(gauges_go_on_as_if_never_stopped, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(rows_add_up_to_the_impulse, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(summary_tells_peaks_and_filters, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(loads_that_grow_at_the_end_are_told, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(boulders_have_a_line_each, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(probes_of_the_start_cannot_be_appended, run_folder_setup, run_folder_teardown),
     };

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/run/run_gauges.h"
 
+#include "cases/driver/run/run_warnings.h"
 #include "cases/driver/scene/simulation.h"
 
 #include <math.h>
@@ -227,6 +228,54 @@ mor_status mor_run_gauges_conclude(mor_context *context, const mor_gauges *gauge
             MOR_TRY(context, mor_durable_file_commit(context, &file));
         }
     }
+    return MOR_OK;
+}
+
+/* The peak of a gauge before the last tenth of its table, and when that was; NaN where no row is that early. */
+static double find_early_peak(const mor_table_data *data, int gauge, double *until)
+{
+    const double *times = data->values;
+    const int column = 1 + gauge * MOR_GAUGE_COLUMNS + MOR_GAUGE_COLUMN_LARGEST;
+    const double first = times[0];
+    const double last = times[(data->n_rows - 1) * data->n_columns];
+    double peak = NAN;
+    for (int64_t row = 0; row < data->n_rows; ++row) {
+        const double time = times[row * data->n_columns];
+        if (time <= last - 0.1 * (last - first)) {
+            peak = fmax(peak, times[row * data->n_columns + column]);
+            *until = time;
+        }
+    }
+    return peak;
+}
+
+mor_status mor_run_gauges_warn_of_growth(mor_context *context, const mor_gauges *gauges, const char *folder)
+{
+    const double growth = 0.02;
+    char path[MOR_PATH_BYTES];
+    mor_table_data data;
+    if (gauges->n == 0) {
+        return MOR_OK;
+    }
+    MOR_TRY(context, mor_durable_file_join(context, path, folder, MOR_GAUGE_TABLE_FILE));
+    MOR_TRY(context, mor_table_data_read(context, &data, path));
+    for (int k = 0; k < gauges->n && data.n_rows > 0; ++k) {
+        const double *peaks = gauges->of[k].numbers + MOR_GAUGE_PEAK;
+        double until = NAN;
+        const double early = find_early_peak(&data, k, &until);
+        const double risen = peaks[MOR_GAUGE_PEAK_NORMAL] - early;
+        if (risen > growth * peaks[MOR_GAUGE_PEAK_NORMAL]) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            MOR_RUN_WARNING_AT_END
+                            "the load on gauge '%s' was still growing: its peak of %.5g %s at %.4g s was %.5g until "
+                            "%.3g s. The largest load may come later: let the run go on with a later 'end', or take "
+                            "the peak for a lower bound",
+                            gauges->of[k].asked->name, peaks[MOR_GAUGE_PEAK_NORMAL],
+                            gauges->simulation->the_case->dimension == 2 ? "N/m" : "N", peaks[MOR_GAUGE_PEAK_TIME],
+                            early, until);
+        }
+    }
+    mor_table_data_clear(context, &data);
     return MOR_OK;
 }
 
