@@ -365,6 +365,11 @@ int mor_composite_is(const mor_material_instance *instance)
     return instance->material->operations.advance_rate == advance_rate;
 }
 
+const mor_material_instance *mor_composite_part(const mor_material_instance *instance, int part)
+{
+    return mor_composite_is(instance) ? ((const composite *)instance->material)->parts[part] : instance;
+}
+
 int mor_composite_field(const mor_material_instance *instance, int part)
 {
     if (!mor_composite_is(instance)) {

@@ -44,4 +44,8 @@ int mor_composite_field(const mor_material_instance *instance, int part);
 /** Returns whether an instance was made by mor_composite_create. */
 int mor_composite_is(const mor_material_instance *instance);
 
+/** Returns the law of a part of a composite; of any other instance, itself. Borrowed.
+ *  @param part [in]  0 .. n_parts - 1 */
+const mor_material_instance *mor_composite_part(const mor_material_instance *instance, int part);
+
 #endif

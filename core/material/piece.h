@@ -65,4 +65,20 @@ static inline double *mor_piece_numbers(double *numbers, int64_t first)
  *  Returns: what the law returns. */
 mor_status mor_material_find_speed(const mor_material_instance *law, int part, double density, double *speed);
 
+/** Finds the longest step that a law allows.
+ *  @param law   [in]   of the soil
+ *  @param batch [in]   as of the operation max_step
+ *  @param step  [out]  one number, unit s; infinite for a law without that operation
+ *  Returns: what the law returns. */
+mor_status mor_material_find_step(const mor_material_instance *law, const mor_batch *batch, double *step);
+
+/** Finds how stiff a law is in tension, by small expansions of soil without stress.
+ *  @param law     [in]   of the soil
+ *  @param part    [in]   of a composite, which of its laws; else 0
+ *  @param density [in]   unit kg/m3
+ *  @param across  [out]  one number; rise of the stress along an axis over the strain along it alone, over rho c^2, 1;
+ *                        0: soil without stress that expands has no mean tension
+ *  Returns: what the law returns. */
+mor_status mor_material_find_tension(const mor_material_instance *law, int part, double density, double *across);
+
 #endif

@@ -75,7 +75,7 @@ static bool has_audit(const void *owner)
 #define STANDING                                                                                                       \
     (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
      BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |      \
-     CALM)
+     BIT(GAP) | CALM)
 
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
@@ -111,7 +111,8 @@ static const mor_stage soil_stages[] = {
     {"impulse on sleep", mor_soil_count_sleep, BIT(ACCELERATION) | BIT(MASS), 0, SHARED(LISTS),
      "impulse given to soil that sleeps, when switched on", mor_soil_may_sleep},
     {"boundary forces", mor_soil_sum_boundary_forces,
-     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(STRAIN_RATE),
+     SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(STRAIN_RATE) |
+         BIT(GAP),
      SHARED(WALL_FORCES), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
     {"kick", mor_soil_kick, SHARED(LISTS), 0,
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
@@ -119,8 +120,9 @@ static const mor_stage soil_stages[] = {
     {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE) | SHARED(MOMENTS), 0,
      "velocity gradient and density rate by the neighbors", NULL},
-    {"boundary gradient", mor_soil_sum_boundary_gradient, SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES), 0,
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | SHARED(WALL_SUMS),
+    {"boundary gradient", mor_soil_sum_boundary_gradient,
+     SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(STATE), BIT(GAP_BEFORE),
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(GAP) | SHARED(WALL_SUMS),
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | BIT(MASS) | BIT(VELOCITY) |
@@ -172,8 +174,8 @@ static const mor_stage soil_stages[] = {
 static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | CALM | BIT(POSITION) | BIT(VELOCITY) |
                                         BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |
                                         BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |
-                                        BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) | SHARED(ENERGY_SUMS) |
-                                        SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
+                                        BIT(GAP) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
+                                        SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
  * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */
@@ -246,6 +248,10 @@ static mor_status set_kinds(mor_context *context, mor_soil *soil)
         soil->kinds[k] = has_several ? s->kinds[k] : soil->kinds[k];
         const mor_status status = mor_soil_kind_find_speed(context, soil->material, k, &soil->kinds[k]);
         MOR_TRY(context, status == MOR_OK ? status : mor_context_name_item(context, status, k));
+        if (s->scheme.coulomb_tension == 1) {
+            soil->across[k] = mor_soil_kind_find_across(s->guard, soil->material, k, &soil->kinds[k]);
+            soil->keeps_gaps = soil->keeps_gaps || soil->across[k] > 0.0;
+        }
         soil->sound_speed = fmax(soil->sound_speed, soil->kinds[k].sound_speed);
     }
     soil->settings.kinds = NULL;
@@ -322,6 +328,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
         name);
     MOR_CHECK(context, material->material->form == MOR_MATERIAL_RATE, MOR_ERROR_ARGUMENT,
               "material '%s' is for elastic bodies; soil needs a material in rate form", material->material->name);
+    MOR_TRY(context, set_kinds(context, soil));
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
     fields &= settings->scheme.artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
     fields &= settings->scheme.stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
@@ -332,6 +339,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= settings->scheme.separation_memory ? ~(uint64_t)0 : ~BIT(SEPARATION);
+    fields &= soil->keeps_gaps ? ~(uint64_t)0 : ~(BIT(GAP) | BIT(GAP_BEFORE));
     fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~CALM;
     fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
                                                                                                : ~BIT(CROSSINGS);
@@ -339,9 +347,6 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
         status = add_state(context, soil);
-    }
-    if (status == MOR_OK) {
-        status = set_kinds(context, soil);
     }
     if (status == MOR_OK) {
         status = allocate_soil(context, soil, n_particles);

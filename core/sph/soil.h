@@ -66,6 +66,8 @@ typedef struct mor_soil {
     int region_field;                             /* index of the number of the region in the set; -1: one region */
     mor_soil_kind kinds[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds]; in the order of the composite's parts */
     int n_kinds;
+    bool keeps_gaps;                                   /* between some soil and boundaries that let it go */
+    double across[MOR_COMPOSITE_PARTS_MAX];            /* shape [n_kinds]; mor_soil_kind_find_across, 1 */
     mor_pair_soil pair_soils[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds] */
     int kind_fields[MOR_COMPOSITE_PARTS_MAX]; /* shape [n_kinds]; state variable that is the field of a soil, or -1 */
     int diffusing[MOR_COMPOSITE_PARTS_MAX];   /* shape [n_diffusing]; state variables that are fields */

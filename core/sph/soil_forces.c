@@ -149,17 +149,6 @@ mor_status mor_soil_find_artificial_stress(mor_context *context, void *owner, mo
     return MOR_OK;
 }
 
-/* Stress per height at rest, eq. 26 for any direction g of gravity; gravity: its strength, m/s2. */
-static void find_rest_gradient(const mor_soil_kind *kind, double gravity, const double *g, double *rest_gradient)
-{
-    const double weight = kind->reference_density * gravity;
-    const double lateral = kind->lateral_ratio;
-    for (int a = 0; a < 3; ++a) {
-        rest_gradient[a] = weight * (lateral + (1.0 - lateral) * g[a] * g[a]);
-        rest_gradient[3 + a] = weight * (1.0 - lateral) * g[a] * g[(a + 1) % 3];
-    }
-}
-
 /* Transient stress diffuses in one of some steps, for all of them: it follows changes over several steps. */
 static void set_diffusion(mor_context *context, mor_soil *soil, const mor_step *step, double *diffusion)
 {
@@ -175,8 +164,8 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     mor_soil *soil = owner;
     const double gravity = mor_soil_gravity_part(soil, step) * mor_vector_length(soil->settings.gravity);
     for (int k = 0; k < soil->n_kinds; ++k) {
-        find_rest_gradient(&soil->kinds[k], gravity, soil->constants.gravity_direction,
-                           soil->pair_soils[k].rest_gradient);
+        mor_soil_kind_find_rest(&soil->kinds[k], gravity, soil->constants.gravity_direction,
+                                soil->pair_soils[k].rest_gradient);
     }
     memcpy(soil->constants.rest_gradient, soil->pair_soils[0].rest_gradient, sizeof soil->constants.rest_gradient);
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
@@ -196,25 +185,33 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     return MOR_OK;
 }
 
+/* The soil as boundaries see it, from what a stage declares. */
+static mor_contact_soil see_soil(const mor_soil *soil, mor_view *view, const mor_step *step, const double *records)
+{
+    return (mor_contact_soil){.dissipation = (mor_dissipation)soil->settings.scheme.wall_dissipation,
+                              .coulomb_pulls = soil->settings.scheme.coulomb_tension == 0,
+                              .limiter_rate = soil->constants.limiter_rate,
+                              .of_soil = soil->of_soil,
+                              .region = mor_soil_read_region(soil, view),
+                              .records = records,
+                              .depth = 0.5 * soil->settings.spacing,
+                              .gap = mor_view_read(view, MOR_FIELD_GAP),
+                              .across = soil->across,
+                              .length = step->length,
+                              .n_particles = soil->set.n_particles};
+}
+
 mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)step;
     const mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
     const mor_pair_singles *copies = mor_view_read_shared(view, MOR_RESOURCE_SHORT_LISTS, &soil->singles);
     const mor_pair_singles *singles = soil->settings.scheme.precision == 1 ? copies : NULL;
     double *acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
-    const mor_contact_soil seen = {.dissipation = (mor_dissipation)soil->settings.scheme.wall_dissipation,
-                                   .coulomb_pulls = soil->settings.scheme.coulomb_tension == 0,
-                                   .limiter_rate = soil->constants.limiter_rate,
-                                   .of_soil = arrays.of_soil,
-                                   .region = mor_soil_read_region(soil, view),
-                                   .records = arrays.records,
-                                   .strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE),
-                                   .depth = 0.5 * soil->settings.spacing,
-                                   .n_particles = arrays.n_particles};
+    mor_contact_soil seen = see_soil(soil, view, step, arrays.records);
+    seen.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
         mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner,
@@ -247,21 +244,25 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
 mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor_view *view, const mor_step *step)
 {
     mor_soil *soil = owner;
-    (void)step;
     const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
-    double *gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
-    double *rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
+    mor_contact_soil seen = see_soil(soil, view, step, records);
+    const mor_contact_rates rates = {.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
+                                     .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
+                                     .gap = mor_view_write(view, MOR_FIELD_GAP)};
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
+    seen.gap = mor_view_write(view, MOR_FIELD_GAP_BEFORE);
+    mor_soil_contact_take_gaps(context, soil->sleep.states, soil->set.n_particles, rates.gap,
+                               mor_view_write(view, MOR_FIELD_GAP_BEFORE));
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         /* Rocks have moved on since the boundary forces were summed, but their points in the records have not; the
          * velocity there is now that after this step, docs/theory/coupling.md, C6b. */
         mor_soil_contact_update_velocity(context, contact, soil->table, &soil->constants, records);
-        mor_soil_contact_sum_gradient(context, contact, records, soil->set.n_particles, gradient, rate);
+        mor_soil_contact_sum_gradient(context, contact, &seen, &rates);
     }
-    mor_hold_stop(&soil->hold, gradient, 9);
-    mor_hold_stop(&soil->hold, rate, 1);
+    mor_hold_stop(&soil->hold, rates.velocity_gradient, 9);
+    mor_hold_stop(&soil->hold, rates.density_rate, 1);
     return MOR_OK;
 }
 

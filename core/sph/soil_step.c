@@ -5,38 +5,29 @@
 
 #include "core/base/math.h"
 #include "core/material/checked.h"
+#include "core/material/piece.h"
 
 #include <math.h>
 
 /* Step limit of the material, for models that have one. */
 static mor_status limit_by_material(mor_context *context, const mor_soil *soil, double *step_length, const char **limit)
 {
-    enum { BATCH = 128 };
-    if (soil->material->material->operations.max_step == NULL) {
-        return MOR_OK;
+    const double *state[MOR_MATERIAL_STATES_MAX];
+    double longest = INFINITY;
+    for (int k = 0; k < soil->material->n_state; ++k) {
+        state[k] = soil->set.data[soil->state_fields[k]];
     }
-    for (int64_t first = 0; first < soil->set.n_particles; first += BATCH) {
-        const int64_t left = soil->set.n_particles - first;
-        const double *state[MOR_MATERIAL_STATES_MAX];
-        double steps[BATCH];
-        for (int k = 0; k < soil->material->n_state; ++k) {
-            const int field = soil->state_fields[k];
-            state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
-        }
-        const mor_batch batch = {.n = left < BATCH ? left : BATCH,
-                                 .density = soil->set.data[MOR_FIELD_DENSITY] + first,
-                                 .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
-                                 .state_in = state};
-        const mor_status status = soil->material->operations.max_step(soil->material, &batch, steps);
-        MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
-        MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' gave no longest step",
-                  soil->material->material->name);
-        for (int64_t i = 0; i < batch.n; ++i) {
-            if (!(steps[i] >= *step_length)) {
-                *step_length = steps[i];
-                *limit = "the material";
-            }
-        }
+    const mor_batch batch = {.n = soil->set.n_particles,
+                             .density = soil->set.data[MOR_FIELD_DENSITY],
+                             .stress_in = soil->set.data[MOR_FIELD_STRESS],
+                             .state_in = state};
+    const mor_status status = mor_material_find_step(soil->material, &batch, &longest);
+    MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
+    MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' gave no longest step",
+              soil->material->material->name);
+    if (!(longest >= *step_length)) {
+        *step_length = longest;
+        *limit = "the material";
     }
     return MOR_OK;
 }

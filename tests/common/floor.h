@@ -157,7 +157,8 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation, NULL);
     const mor_contact_soil seen = floor_soil(f, dissipation);
     mor_soil_contact_sum_forces(context, &f->wall, &seen, f->acceleration);
-    mor_soil_contact_sum_gradient(context, &f->wall, f->soil.records, f->soil.n, f->velocity_gradient, f->density_rate);
+    const mor_contact_rates rates = {.velocity_gradient = f->velocity_gradient, .density_rate = f->density_rate};
+    mor_soil_contact_sum_gradient(context, &f->wall, &seen, &rates);
 }
 
 /** Kernel gradient over the floor at a place, shape [3], m; out in 1/m. It points into the wall, against eq. 33. */

@@ -135,16 +135,15 @@ static void strong_block_slides_by_the_law_on_a_floor_that_only_presses(void **s
         const double found = find_coefficient(slide_with_friction(schemes[0], strong, coefficients[k]));
         print_message("strong block, coefficient %.1f: slides as with %.4f\n", coefficients[k], found);
         scene_expect_near("coefficient", found, coefficients[k],
-                          0.02); /* twice what is found: it lands again, rattling */
+                          0.02); /* a tenth above what is found: it lands again, rattling */
     }
     const double sticky = find_coefficient(slide_with_friction(schemes[0], held, 0.3));
     print_message("coefficient 0.3: slides as with %.4f where tension is held\n", sticky);
     assert_true(sticky > 0.3 + 0.05);
 }
 
-/* A floor that only presses gives no momentum to a block that leaves it in free flight. Stress that swings between
- * tension and pressure beside the face still gives it 0.27 times its own in 10 ms (docs/theory/walls.md, faces that
- * open); 3.9 times it was while the motion away was mirrored. */
+/* A floor that only presses gives nothing to a block that leaves it in free flight: it stays free of stress. The block
+ * had 4.9 times its momentum after 10 ms while the motion away was mirrored, and 1.27 times while it was for a step. */
 static void strong_block_leaves_a_floor_that_only_presses(void **state)
 {
     static const char *const leaves[] = {"gravity=(0, 0, 0)",
@@ -158,8 +157,8 @@ static void strong_block_leaves_a_floor_that_only_presses(void **state)
     (void)state;
     scene *it = scene_new(&(scene_request){block, (const char *const *[]){leaves}, 1, 1});
     const double start = scene_probe(it, "momentum");
-    scene_advance(it, 0.01);
-    scene_expect_near("momentum", scene_probe(it, "momentum") / start, 1.0, 0.35);
+    scene_advance(it, 0.03);
+    scene_expect_near("momentum", scene_probe(it, "momentum") / start, 1.0, 1e-12); /* rounding */
     scene_free(it);
 }
 

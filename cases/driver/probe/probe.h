@@ -72,6 +72,15 @@ const char *mor_probe_remark(const mor_simulation *simulation, int probe);
  *  Returns: unit J (J/m in plane strain). */
 double mor_probe_energy_moved(const mor_simulation *simulation, int probe);
 
+/** Finds what should have taken energy and has given it: plastic strain, the method or boundaries.
+ *  @param probe [in]   index of a probe of type energy_balance in the case
+ *  @param share [out]  one number; what the worst of them has given over the most energy that has changed hands, which
+ *                      is in it, >= 0, 1; 0: none has
+ *  @param by    [out]  one static text, for people: which
+ *  Returns: as mor_probe_evaluate. */
+mor_status mor_probe_energy_given(mor_context *context, const mor_simulation *simulation, int probe, double *share,
+                                  const char **by);
+
 /** Work to lift all soil and bodies by a spacing, unit J (J/m in plane strain). */
 double mor_probe_lift_energy(const mor_simulation *simulation);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef mor_probe_view view;
@@ -121,13 +122,12 @@ static double find_outflow(const mor_simulation *s)
     return energies[0] + energies[1] + energies[2] + mor_simulation_bodies_removed(&s->bodies, origin);
 }
 
-/* What has changed since the start, entry by entry, J (J/m): their sum is the error, half the sum of their sizes the
- * energy that changed hands. */
-static mor_status find_changes(mor_context *context, const view *v, double *error, double *turned)
+enum { KINETIC, POTENTIAL, ELASTIC, PLASTIC, NUMERICAL, BOUNDARY, BODIES, EXTERNAL, OUTFLOW, ENTRIES };
+
+/* What has changed since the start, entry by entry, shape [ENTRIES], J (J/m). */
+static mor_status list_changes(mor_context *context, const view *v, double *changes)
 {
-    enum { KINETIC, POTENTIAL, ELASTIC, PLASTIC, NUMERICAL, BOUNDARY, BODIES, EXTERNAL, OUTFLOW, ENTRIES };
     double passed_on = 0.0;
-    double changes[ENTRIES] = {0.0};
     const mor_simulation *s = v->simulation;
     memcpy(changes, mor_probe_energies(context, v), 3 * sizeof *changes);
     for (int k = KINETIC; k <= ELASTIC; ++k) {
@@ -142,6 +142,14 @@ static mor_status find_changes(mor_context *context, const view *v, double *erro
     changes[BODIES] = mor_simulation_bodies_lost(&s->bodies);
     changes[EXTERNAL] = -changes[EXTERNAL];
     changes[OUTFLOW] = find_outflow(s);
+    return MOR_OK;
+}
+
+/* The sum of the changes is the error, half the sum of their sizes the energy that changed hands. */
+static mor_status find_changes(mor_context *context, const view *v, double *error, double *turned)
+{
+    double changes[ENTRIES] = {0.0};
+    MOR_TRY(context, list_changes(context, v, changes));
     *error = 0.0;
     *turned = 0.0;
     for (int k = 0; k < ENTRIES; ++k) {
@@ -171,6 +179,32 @@ static mor_status energy_balance(mor_context *context, const view *v, double *va
 double mor_probe_energy_moved(const mor_simulation *s, int probe)
 {
     return s->probes->past[probe][MOR_PROBE_RECORD_MAXIMUM];
+}
+
+mor_status mor_probe_energy_given(mor_context *context, const mor_simulation *s, int probe, double *share,
+                                  const char **by)
+{
+    static const char *const names[] = {
+        [PLASTIC] = "plastic strain (probe plastic_energy)",
+        [NUMERICAL] = "the method (probe numerical_dissipation)",
+        [BOUNDARY] = "walls and rocks (probe boundary_dissipation, less friction_strain_energy)"};
+    double changes[ENTRIES] = {0.0};
+    double error = 0.0;
+    double turned = 0.0;
+    view v;
+    mor_probe_view_set(s, probe, &v);
+    MOR_TRY(context, list_changes(context, &v, changes));
+    MOR_TRY(context, find_changes(context, &v, &error, &turned));
+    turned = fmax(turned, v.past[MOR_PROBE_RECORD_MAXIMUM]);
+    *share = 0.0;
+    *by = names[PLASTIC];
+    for (int k = PLASTIC; k <= BOUNDARY; ++k) {
+        if (-changes[k] > *share * turned) {
+            *share = -changes[k] / turned;
+            *by = names[k];
+        }
+    }
+    return MOR_OK;
 }
 
 double mor_probe_lift_energy(const mor_simulation *s)

@@ -88,6 +88,10 @@ typedef struct mor_contact_soil {
     const double *records;       /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
     const double *strain_rate;   /* shape [n_particles, 6], of the last step, 1/s; NULL: none is kept */
     double depth;                /* of a particle of the first layer under the face of the soil, m */
+    const double *gap;           /* shape [n_particles, 3]; by how much each has left the faces around it that only
+                                  * press, before the step, (W3b) of docs/theory/walls.md, m; NULL: none is kept */
+    const double *across;        /* shape [soils]; with gap, stiffness across a face over rho c0^2, 1; 0: no gaps */
+    double length;               /* of the step, s */
     int64_t n_particles;
 } mor_contact_soil;
 
@@ -138,7 +142,7 @@ typedef struct mor_soil_contact {
     double *mean_velocity;    /* shape [capacity * 8, 3]; of the points seen, m/s; NULL: a wall that does not rotate */
     double *sums;             /* shape [capacity * 8, MOR_KERNEL_SUMS]; units of the enum */
     double *stick;            /* shape [capacity * 8]; mirrored part of the tangential motion, 0 to 1; unit 1 */
-    double *closure;          /* shape [capacity * 8]; mirrored part of the normal motion: 0 open, 1 closed; unit 1 */
+    double *closure;          /* shape [capacity * 8]; mirrored part of the normal motion, 0 to 1; unit 1 */
     double *acceleration;     /* shape [capacity * 8, 3]; acceleration of the soil by the patch, in corners by what the
                               * patch has its own part in, m/s2 */
     double *divergence;       /* shape [capacity * 8, 2, 3]; of the soil's stress, along and across the patch, Pa/m;
@@ -369,15 +373,28 @@ void mor_soil_contact_visit(const mor_soil_contact *contact, const double *recor
 void mor_soil_contact_share_forces(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                    const mor_pair_constants *constants, const double *records, int64_t n_particles);
 
-/** Adds the wall's part of the velocity gradient and of the density rate.
- *  @param contact           [in,out]  sums, stick and closure must be current
- *  @param records           [in]      shape [n_particles padded to 8, 16]; with the new velocities, units of
- *                                      MOR_RECORD_...
- *  @param n_particles       [in]      number of soil particles
- *  @param velocity_gradient [in,out]  shape [n_particles, 9], unit 1/s; added to
- *  @param density_rate      [in,out]  shape [n_particles], unit kg/m3/s; added to */
-void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const double *records,
-                                   int64_t n_particles, double *velocity_gradient, double *density_rate);
+/** Keeps the gaps before a step, and leaves those after it to the faces that are seen in it: soil that sees none has no
+ *  gap. Soil that sleeps keeps its own.
+ *  @param sleep       [in]      shape [clusters]; states of sleep; NULL: all is awake
+ *  @param n_particles [in]      number of soil particles
+ *  @param gap         [in,out]  shape [n_particles, 3], unit m; becomes zero; NULL: nothing is done
+ *  @param before      [out]     shape [n_particles, 3], unit m; what it was */
+void mor_soil_contact_take_gaps(mor_context *context, const int8_t *sleep, int64_t n_particles, double *gap,
+                                double *before);
+
+/** What boundaries add to, or change. */
+typedef struct mor_contact_rates {
+    double *velocity_gradient; /* shape [n_particles, 9], 1/s; added to */
+    double *density_rate;      /* shape [n_particles], kg/m3/s; added to */
+    double *gap;               /* shape [n_particles, 3], m; that of the soil after the step; NULL: none is kept */
+} mor_contact_rates;
+
+/** Adds the wall's part of the velocity gradient and of the density rate, sets closure and gaps where these are kept.
+ *  @param contact [in,out]  sums and stick must be current
+ *  @param soil    [in]      with the new velocities in the records
+ *  @param rates   [in]      what is added to and changed */
+void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const mor_contact_soil *soil,
+                                   const mor_contact_rates *rates);
 
 /** Adds what the boundary closes of the moments of the kernel gradient. Across it velocities are mirrored, unless it
  *  would have to pull; so they are along it where the soil sticks. Where it slips, they continue along the boundary as

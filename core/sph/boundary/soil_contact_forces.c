@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { GRAIN = MOR_CONTACT_GRAIN };
@@ -16,6 +17,9 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 
 /* Motion along a boundary up to this many times what the soil's rate of shear explains is shear, 1. */
 #define SHEARS 20.0
+
+/* Share by which a traction is above the limit of friction where all motion is slip, 1. */
+#define RAMP 0.05
 
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
 #define LARGEST_SHARE 0.6
@@ -151,15 +155,25 @@ typedef struct boundary_terms {
     const double *repulsion;        /* acceleration by the barrier, m/s2; NULL without */
     const double *strain_rate;      /* of the particle, 1/s; NULL: none is kept */
     double depth;                   /* of the particle under the face of the soil, m */
+    double across;                  /* stiffness across the face over rho c0^2, 1; 0: no gap is kept */
+    double gap;                     /* between the particle and the face, m */
+    double step;                    /* length of the step, s */
 } boundary_terms;
+
+/* The parts of the motion of a particle that a boundary mirrors, 1. */
+typedef struct mirrored {
+    double along, across;
+} mirrored;
 
 /* Leaves of the motion of a particle along a boundary what is slip, and not shear of the soil between the particle and
  * its face, whose speed is 2 D n times the depth: what grows away from the face, with the motion. The rate is a fit
  * over the support and shows a part of the shear of a thin layer along the face, so that SHEARS times as much counts as
- * shear; a block that slides has next to none, and rattles against the motion as often as with it.
- * slip: across the normal, m/s */
-static void leave_slip(const boundary_terms *p, const double *normal, double *slip)
+ * shear; a block that slides has next to none. Where the particle's own traction is above the limit of friction the
+ * soil bears more than that, and all of its motion is slip.
+ * stick: the limit over that traction, at most 1; slip: across the normal, m/s */
+static void leave_slip(const boundary_terms *p, const double *normal, double stick, double *slip)
 {
+    const double counts = mor_max(1.0 - (1.0 - stick) / RAMP, 0.0);
     const double speed = mor_vector_length(slip);
     double shear[3];
     if (p->strain_rate == NULL || !(speed > 0.0)) {
@@ -167,7 +181,7 @@ static void leave_slip(const boundary_terms *p, const double *normal, double *sl
     }
     mor_symmetric_apply(p->strain_rate, normal, shear);
     const double rate = mor_max(mor_vector_dot(shear, slip) / speed, 0.0);
-    const double part = mor_max(1.0 - SHEARS * 2.0 * p->depth * rate / speed, 0.0);
+    const double part = 1.0 - counts * mor_min(SHEARS * 2.0 * p->depth * rate / speed, 1.0);
     for (int a = 0; a < 3; ++a) {
         slip[a] *= part;
     }
@@ -190,7 +204,7 @@ static void resist_sliding(const double *slip, double limit, double wave_speed, 
  * slip: acceleration by a wave of the sliding speed, m/s2; along: normal acceleration, m/s2 */
 static void add_along_wall(const double *continuation, double slip, double along, double *tangential)
 {
-    const double kept = slip <= along ? 1.0 : slip >= 2.0 * along ? 0.0 : 2.0 - slip / along;
+    const double kept = slip >= 2.0 * along ? 0.0 : slip <= along ? 1.0 : 2.0 - slip / along;
     for (int a = 0; a < 3; ++a) {
         tangential[a] += kept * continuation[a];
     }
@@ -224,13 +238,49 @@ static double limit_friction(const double *record, double limit, double area, do
     return trial > limit ? (limit + noise) / (trial + noise) : 1.0;
 }
 
-/* The parts of the motion of a particle that a boundary mirrors, 1. */
-typedef struct mirrored {
-    double along, across;
-} mirrored;
+/* The normal of a boundary, eq. 33: the kernel gradient over it points into it. */
+static void find_normal(const double *gradient, double *normal)
+{
+    const double length = mor_vector_length(gradient);
+    for (int a = 0; a < 3; ++a) {
+        normal[a] = -gradient[a] / length;
+    }
+}
 
-/* Adds the acceleration of one particle by the wall to what the continued stress gave. Where a boundary that only
- * presses would have to pull, it is none: mirrored, motion away from it would raise the tension that drives it. */
+/* Pressure by the one-sided Riemann problem, eqs. 32 to 34, Pa.
+ * closing: speed towards the boundary, m/s; pressed: pressure of the particle's stress on it, Pa */
+static double find_riemann_pressure(const boundary_terms *p, const double *record, double closing, double pressed)
+{
+    const double slope = 2.0 * p->limiter_rate * limited_speed(closing, p->dissipation);
+    const double pressure = (slope < 1.0 ? slope : 1.0) * record[MOR_RECORD_IMPEDANCE] * closing;
+    return p->frees ? mor_max(pressure, -mor_max(pressed, 0.0)) : pressure;
+}
+
+/* The part of the step in which the particle touches the boundary, (W3c), 1: not before it has closed its gap. */
+static double find_touch(const boundary_terms *p, double closing)
+{
+    const double comes = closing * p->step;
+    return p->gap > 0.0 ? comes > p->gap ? 1.0 - p->gap / comes : 0.0 : 1.0;
+}
+
+/* Acceleration by a boundary that only presses, (W3c), m/s2: that of the particle's own stress and what continues it,
+ * which is no larger. Where the particle leaves, its work in the step is no more than what is stored in the pressure.
+ * closing: speed towards the boundary, m/s */
+static double press(const boundary_terms *p, const double *record, double closing, double own, double continued)
+{
+    const double pressing = find_touch(p, closing) * mor_max(own, 0.0);
+    const double along = pressing + mor_max(mor_min(continued, pressing), -pressing);
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
+    const double speed = mor_max(-closing, 0.0);
+    /* own = 2 p |grad| / rho, unloaded over p / (2 M |grad|): half of that times own is p^2 / (2 rho M) */
+    const double pressure = 0.5 * pressing * record[MOR_RECORD_DENSITY] / mor_vector_length(p->gradient);
+    const double stored = 0.5 * pressure * pressure / (p->across * impedance * impedance);
+    return along * speed * p->step > stored ? stored / (speed * p->step) : along;
+}
+
+/* Adds the acceleration of one particle by the wall to what the continued stress gave. A boundary that only presses
+ * does not pull, and does not press across a gap. Where no gap is kept it mirrors no motion across where it would have
+ * to pull. */
 static mirrored find_boundary_acceleration(const boundary_terms *p, const double *record, double *acceleration)
 {
     const double *gradient = p->gradient;
@@ -238,28 +288,25 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
     if (!(length > 0.0)) {
         return (mirrored){1.0, 1.0};
     }
-    /* Wall normal, eq. 33: the kernel gradient over the wall points into it. */
-    const double normal[3] = {-gradient[0] / length, -gradient[1] / length, -gradient[2] / length};
+    double normal[3];
     double relative[3];
+    find_normal(gradient, normal);
     for (int a = 0; a < 3; ++a) {
         relative[a] = record[MOR_RECORD_VELOCITY + a] - p->velocity[a];
     }
     const double closing = -mor_vector_dot(relative, normal);
-    const double slope = 2.0 * p->limiter_rate * limited_speed(closing, p->dissipation);
-    double pressure = (slope < 1.0 ? slope : 1.0) * record[MOR_RECORD_IMPEDANCE] * closing;
     double traction[3];
     mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
-    if (p->frees) {
-        const double pressed = -mor_vector_dot(traction, normal);
-        pressure = mor_max(pressure, -mor_max(pressed, 0.0));
-    }
+    const double pressure = find_riemann_pressure(p, record, closing, -mor_vector_dot(traction, normal));
     const double factor = -2.0 * length / record[MOR_RECORD_DENSITY];
     const double own = factor * (mor_vector_dot(traction, normal) - pressure);
     const double continued = mor_vector_dot(acceleration, normal);
     const bool is_coulomb = p->friction.kind == MOR_WALL_COULOMB;
     const bool only_presses = is_coulomb && !p->coulomb_pulls;
     const bool is_pulled = only_presses && own + continued < 0.0 && mor_vector_dot(traction, normal) > 0.0;
-    const double along = only_presses ? mor_max(own + continued, 0.0) : own + continued;
+    const double along = p->across > 0.0 ? press(p, record, closing, own, continued)
+                         : only_presses  ? mor_max(own + continued, 0.0)
+                                         : own + continued;
     const bool continues_freely = is_coulomb && !p->limits_all;
     double stick = p->friction.kind == MOR_WALL_SMOOTH ? 0.0 : 1.0;
     double tangential[3];
@@ -279,7 +326,7 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
         const double drag = -factor * record[MOR_RECORD_IMPEDANCE];
         stick = limit_friction(record, limit, -factor, tangential);
         if (!p->coulomb_pulls) {
-            leave_slip(p, normal, slip);
+            leave_slip(p, normal, stick, slip);
             resist_sliding(slip, limit, limit / drag, tangential);
         }
         if (continues_freely) {
@@ -289,7 +336,7 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
     for (int a = 0; a < 3; ++a) {
         acceleration[a] = along * normal[a] + tangential[a];
     }
-    return (mirrored){stick, is_pulled ? 0.0 : 1.0};
+    return (mirrored){p->across > 0.0 && along == 0.0 ? 0.0 : stick, is_pulled ? 0.0 : 1.0};
 }
 
 /* In a corner the normals of all walls direct what the sums of one give along another. The stress acts on the wall
@@ -303,6 +350,24 @@ static void attribute_corner(const double *transfer, const double *record, doubl
     }
 }
 
+/* Distance of a particle from the boundary, m; infinite where it is not known. */
+static double find_distance(const mor_soil_contact *contact, int64_t lane)
+{
+    return contact->seen_faces != NULL ? contact->seen_faces[MOR_FACE_SUMS * lane + MOR_FACE_DISTANCE] : INFINITY;
+}
+
+/* Gap between a particle and the boundary, m. */
+static double find_gap(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t particle)
+{
+    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    double normal[3];
+    if (!(mor_vector_length(gradient) > 0.0)) {
+        return 0.0;
+    }
+    find_normal(gradient, normal);
+    return mor_soil_contact_gap(soil->gap + 3 * particle, soil->depth, normal, find_distance(contact, lane));
+}
+
 /* Finds the boundary forces of one slot and adds them to the acceleration of its particles. */
 static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t slot,
                                   double *acceleration)
@@ -314,7 +379,8 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
                         .limits_all = mor_soil_contact_limits_all(contact, soil->coulomb_pulls),
                         .limiter_rate = soil->limiter_rate,
                         .frees = contact->normals != NULL,
-                        .depth = soil->depth};
+                        .depth = soil->depth,
+                        .step = soil->length};
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const int64_t i = first + k;
@@ -337,6 +403,8 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
+        p.across = mor_soil_contact_across(soil, p.friction.kind, i);
+        p.gap = p.across > 0.0 ? find_gap(contact, soil, lane, i) : 0.0;
         const mirrored parts = find_boundary_acceleration(&p, record, own);
         contact->stick[lane] = parts.along;
         contact->closure[lane] = parts.across;
@@ -401,48 +469,85 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
     }
 }
 
-/* Velocity that the wall's mirror image has beyond the particle's own, 2 (u - v) where it sticks. */
-static void mirrored_difference(const double *velocity, const double *record, const double *gradient, mirrored parts,
-                                double *difference)
+/* What of the motion of a particle across a boundary is mirrored, 1. Pressure is taken off by what the strain of the
+ * mirrored motion, 2 grad W for each meter, needs for it.
+ * speed: away from the boundary, m/s; across: stiffness over rho c0^2, 1 */
+static double find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
+                           int64_t particle, double speed, double across, double *gap)
 {
+    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    const double *record = soil->records + particle * MOR_RECORD_SIZE;
+    const double length = mor_vector_length(gradient);
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
+    const double modulus = across * impedance * impedance / record[MOR_RECORD_DENSITY];
+    double normal[3];
+    double traction[3];
+    if (!(length > 0.0)) {
+        return 1.0;
+    }
+    find_normal(gradient, normal);
+    mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
+    const double pressed = mor_max(-mor_vector_dot(traction, normal), 0.0);
+    const mor_contact_leave leave = {.gap = soil->gap + 3 * particle,
+                                     .depth = soil->depth,
+                                     .normal = normal,
+                                     .distance = find_distance(contact, lane),
+                                     .leaves = speed * soil->length,
+                                     .unloads = pressed / (2.0 * modulus * length)};
+    return mor_soil_contact_leave_face(&leave, gap + 3 * particle);
+}
+
+/* Velocity that the wall's mirror image has beyond the particle's own, 2 (u - v) where it sticks. */
+static void mirror_motion(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t particle,
+                          mor_wall_friction friction, double *gap, double *difference)
+{
+    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    const double *record = soil->records + particle * MOR_RECORD_SIZE;
+    const double *velocity = mor_soil_contact_velocity(contact, lane);
     const double length2 = mor_vector_dot(gradient, gradient);
     double relative[3];
     for (int a = 0; a < 3; ++a) {
         relative[a] = record[MOR_RECORD_VELOCITY + a] - velocity[a];
     }
     const double across = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
+    const double stiffness = mor_soil_contact_across(soil, friction, particle);
+    if (stiffness > 0.0) {
+        const double speed = -across * sqrt(length2);
+        contact->closure[lane] = find_closure(contact, soil, lane, particle, speed, stiffness, gap);
+    }
     for (int a = 0; a < 3; ++a) {
         const double normal = across * gradient[a];
-        difference[a] = -2.0 * (parts.across * normal + parts.along * (relative[a] - normal));
+        difference[a] = -2.0 * (contact->closure[lane] * normal + contact->stick[lane] * (relative[a] - normal));
     }
 }
 
-static void add_slot_gradient(const mor_soil_contact *contact, int64_t slot, const double *records, int64_t n_particles,
-                              double *velocity_gradient, double *density_rate)
+static void add_slot_gradient(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t slot,
+                              const mor_contact_rates *rates)
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
-    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
+    const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
+    for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const int64_t i = first + k;
         const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
-        const double *record = records + i * MOR_RECORD_SIZE;
+        const double *record = soil->records + i * MOR_RECORD_SIZE;
         double difference[3];
-        mirrored_difference(mor_soil_contact_velocity(contact, lane), record, gradient,
-                            (mirrored){contact->stick[lane], contact->closure[lane]}, difference);
+        const mor_wall_friction friction = mor_soil_contact_friction(patch, soil->region, i).kind;
+        mirror_motion(contact, soil, lane, i, friction, rates->gap, difference);
         for (int a = 0; a < 9; ++a) {
-            velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
+            rates->velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
         }
-        density_rate[i] -= record[MOR_RECORD_DENSITY] * mor_vector_dot(difference, gradient);
+        rates->density_rate[i] -= record[MOR_RECORD_DENSITY] * mor_vector_dot(difference, gradient);
     }
 }
 
-void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const double *records,
-                                   int64_t n_particles, double *velocity_gradient, double *density_rate)
+void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *contact, const mor_contact_soil *soil,
+                                   const mor_contact_rates *rates)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         const bool sleeps = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_ASLEEP);
         for (int64_t slot = contact->first_slot[place]; !sleeps && slot < contact->first_slot[place + 1]; ++slot) {
-            add_slot_gradient(contact, slot, records, n_particles, velocity_gradient, density_rate);
+            add_slot_gradient(contact, soil, slot, rates);
         }
     }
 }

@@ -53,6 +53,43 @@ static inline bool mor_soil_contact_limits_all(const mor_soil_contact *contact, 
     return coulomb_pulls || !contact->is_wall;
 }
 
+/** Stiffness of the soil of a particle across a face that it can leave and that only presses, over rho c0^2, 1; 0: no
+ *  gap is kept between them.
+ *  @param friction [in]  of the face with that soil
+ *  @param particle [in]  index in the set */
+static inline double mor_soil_contact_across(const mor_contact_soil *soil, mor_wall_friction friction, int64_t particle)
+{
+    if (soil->gap == NULL || soil->coulomb_pulls || friction != MOR_WALL_COULOMB) {
+        return 0.0;
+    }
+    return soil
+        ->across[soil->of_soil != NULL ? (int)soil->of_soil[particle * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_INDEX]
+                                       : 0];
+}
+
+/** How far a particle stands off a face, m; 0: it touches. Never further than the face is away from the first layer.
+ *  @param gap      [in]  shape [3]; of the particle, before the step, unit m
+ *  @param depth    [in]  of the first layer, unit m
+ *  @param normal   [in]  shape [3]; of the face, into the soil, unit 1
+ *  @param distance [in]  from the face, unit m; infinite where it is not known */
+double mor_soil_contact_gap(const double *gap, double depth, const double *normal, double distance);
+
+/** What of the motion of a particle across a face goes with the face. */
+typedef struct mor_contact_leave {
+    const double *gap;    /* shape [3]; of the particle before the step, m */
+    double depth;         /* of the first layer, m */
+    const double *normal; /* shape [3]; of the face, into the soil, 1 */
+    double distance;      /* from the face, m; infinite where it is not known */
+    double leaves;        /* motion away from the face in this step, m; negative: towards it */
+    double unloads;       /* motion away that takes the pressure off the face, m */
+} mor_contact_leave;
+
+/** Finds what of the motion of a particle across a face the face mirrors, (W3b), and takes up the rest as the gap to
+ *  it: away from it what goes on without pressure, less what closes the gap towards it.
+ *  @param after [in,out]  shape [3]; gap of the particle after the step, from the faces before this one, unit m
+ *  Returns: the part of the motion that is mirrored, 0 to 1. */
+double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after);
+
 /** Friction of a patch with the soil of a particle.
  *  @param region   [in]  shape [n_particles], number of the region each is of, 1; NULL: one region
  *  @param particle [in]  index in the set */

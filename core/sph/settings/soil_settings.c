@@ -3,7 +3,9 @@
 #include "core/sph/settings/soil_settings.h"
 
 #include "core/base/math.h"
+#include "core/material/composite.h"
 #include "core/material/piece.h"
+#include "core/material/varied.h"
 #include "core/particle/kernel.h"
 
 #include <math.h>
@@ -44,6 +46,42 @@ mor_status mor_soil_kind_find_speed(mor_context *context, const mor_material_ins
               speed);
     kind->sound_speed = speed;
     return MOR_OK;
+}
+
+void mor_soil_kind_find_rest(const mor_soil_kind *kind, double gravity, const double *direction, double *rest_gradient)
+{
+    const double weight = kind->reference_density * gravity;
+    const double lateral = kind->lateral_ratio;
+    for (int a = 0; a < 3; ++a) {
+        rest_gradient[a] = weight * (lateral + (1.0 - lateral) * direction[a] * direction[a]);
+        rest_gradient[3 + a] = weight * (1.0 - lateral) * direction[a] * direction[(a + 1) % 3];
+    }
+}
+
+/* Small expansions of one particle. */
+typedef struct expansion {
+    const mor_material_instance *material;
+    int index;
+    double density; /* kg/m3 */
+    double across;  /* 1 */
+    mor_status status;
+} expansion;
+
+static void expand(void *job)
+{
+    expansion *it = job;
+    it->status = mor_material_find_tension(it->material, it->index, it->density, &it->across);
+}
+
+double mor_soil_kind_find_across(mor_guard guard, const mor_material_instance *material, int index,
+                                 const mor_soil_kind *kind)
+{
+    expansion job = {material, index, kind->reference_density, 0.0, MOR_OK};
+    if (mor_varied_is(mor_composite_part(material, index)) || mor_guard_run(guard, expand, &job) != 0 ||
+        job.status != MOR_OK) {
+        return 1.0; /* of a crash the first step tells */
+    }
+    return job.across;
 }
 
 mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings)

@@ -57,6 +57,22 @@ void mor_soil_sum_lattice(const mor_soil_settings *settings, double smoothing_le
 mor_status mor_soil_kind_find_speed(mor_context *context, const mor_material_instance *material, int index,
                                     mor_soil_kind *kind);
 
+/** Stress per height of soil at rest, Zhang et al. (2024) eq. 26 for any direction of gravity.
+ *  @param gravity       [in]   strength, unit m/s2
+ *  @param direction     [in]   shape [3]; unit 1
+ *  @param rest_gradient [out]  shape [6]; unit Pa/m */
+void mor_soil_kind_find_rest(const mor_soil_kind *kind, double gravity, const double *direction, double *rest_gradient);
+
+/** Finds how stiff a soil is across a face that it can leave, by small expansions.
+ *  @param guard    [in]  around the updates; NULL: none
+ *  @param material [in]  of the soil, a composite with several
+ *  @param index    [in]  of the part of a composite
+ *  @param kind     [in]  its density
+ *  Returns: rise of the stress across over the strain, over rho_0 c_0^2, 1; 0 for soil that bears no tension, 1 for
+ *  soil that may bear some: whose parameters vary from place to place, or whose law fails without stress. */
+double mor_soil_kind_find_across(mor_guard guard, const mor_material_instance *material, int index,
+                                 const mor_soil_kind *kind);
+
 /** Checks that soil which begins to fall does not fall asleep before it moves.
  *  @param settings [in]  of the soil
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */

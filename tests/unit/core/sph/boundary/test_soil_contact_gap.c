@@ -1,0 +1,186 @@
+/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "core/base/math.h"
+#include "core/base/random.h"
+#include "core/sph/boundary/soil_contact_internal.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* Gaps between a particle and faces that it leaves and meets again. */
+
+static const double up[3] = {0.0, 1.0, 0.0};
+static const double down[3] = {0.0, -1.0, 0.0};
+
+#define DEPTH 0.5 /* of the first layer */
+
+/* Moves a particle that sees one face; returns how much of that the face mirrors, m. */
+static double move(double *gap, const double *normal, double distance, double leaves, double unloads)
+{
+    double after[3] = {0.0};
+    const mor_contact_leave it = {
+        .gap = gap, .depth = DEPTH, .normal = normal, .distance = distance, .leaves = leaves, .unloads = unloads};
+    const double closure = mor_soil_contact_leave_face(&it, after);
+    assert_true(closure >= 0.0 && closure <= 1.0);
+    memcpy(gap, after, sizeof after);
+    return closure * leaves;
+}
+
+/* Moves a particle that sees two faces by a way, m; which: the first that it meets; mirrored: by each, m. */
+static void move_between(double *gap, const double (*normals)[3], int which, const double *way, double *mirrored)
+{
+    double after[3] = {0.0};
+    for (int k = 0; k < 2; ++k) {
+        const int face = (which + k) % 2;
+        const double leaves = mor_vector_dot(way, normals[face]);
+        const mor_contact_leave it = {
+            .gap = gap, .depth = DEPTH, .normal = normals[face], .distance = INFINITY, .leaves = leaves};
+        mirrored[face] = mor_soil_contact_leave_face(&it, after) * leaves;
+    }
+    memcpy(gap, after, sizeof after);
+}
+
+/* Without pressure a face mirrors what goes beyond the nearest place so far, and nothing else: brute force over a
+ * random walk. */
+static void face_mirrors_what_goes_beyond_the_nearest_place_so_far(void **state)
+{
+    double gap[3] = {0.0};
+    double height = 0.0;
+    double lowest = 0.0;
+    double mirrored = 0.0;
+    (void)state;
+    for (int k = 0; k < 1000; ++k) {
+        const double step = 1e-3 * (mor_random_uniform(7, 0, (uint64_t)k) - 0.5);
+        height += step;
+        lowest = fmin(lowest, height);
+        mirrored += move(gap, up, INFINITY, step, 0.0);
+        assert_true(fabs(mirrored - lowest) < 1e-9); /* gaps below 5e-10 are rounding */
+        assert_true(fabs(gap[1] - (height - lowest)) < 1e-9);
+    }
+    assert_true(lowest < -1e-3 && height - lowest > 1e-4); /* or the walk tells nothing */
+}
+
+/* Likewise in a corner, whichever face comes first: one that a particle rests on has no part in the gap to the
+ * other. */
+static void faces_of_a_corner_have_gaps_of_their_own(void **state)
+{
+    static const double normals[2][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    double gap[3] = {0.0};
+    double place[2] = {0.0};
+    double nearest[2] = {0.0};
+    double sums[2] = {0.0};
+    (void)state;
+    for (int k = 0; k < 1000; ++k) {
+        double way[3] = {0.0};
+        double mirrored[2];
+        for (int a = 0; a < 2; ++a) {
+            way[a] = 1e-3 * (mor_random_uniform(7, (uint64_t)a, (uint64_t)k) - (a == 0 ? 0.5 : 0.6));
+            place[a] += way[a];
+            nearest[a] = fmin(nearest[a], place[a]);
+        }
+        move_between(gap, normals, k % 2, way, mirrored);
+        for (int a = 0; a < 2; ++a) {
+            sums[a] += mirrored[a];
+            /* Gaps of less than a hundredth of the other count as none: the second face has them most of the time. */
+            assert_true(sums[a] - nearest[a] < 1e-9);
+        }
+        assert_true(fabs(sums[0] - nearest[0]) < 2e-4);
+    }
+    assert_true(nearest[0] < -1e-3 && nearest[1] < -0.05);
+}
+
+/* Two walls with one face between them are one wall. */
+static void flush_faces_have_one_gap(void **state)
+{
+    static const double normals[2][3] = {{0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+    double gap[3] = {0.0};
+    double mirrored[2];
+    (void)state;
+    move_between(gap, normals, 0, (const double[3]){0.0, 0.01, 0.0}, mirrored);
+    assert_true(fabs(gap[1] - 0.01) < 1e-15);
+    move_between(gap, normals, 0, (const double[3]){0.0, -0.015, 0.0}, mirrored);
+    assert_true(fabs(mirrored[0] + 0.005) < 1e-15 && fabs(mirrored[1] + 0.005) < 1e-15);
+}
+
+/* Motion that takes off pressure is mirrored, the rest opens the gap. */
+static void pressure_is_taken_off_before_a_gap_opens(void **state)
+{
+    double gap[3] = {0.0};
+    (void)state;
+    assert_true(move(gap, up, INFINITY, 0.002, 0.005) == 0.002);
+    assert_true(gap[1] == 0.0);
+    assert_true(fabs(move(gap, up, INFINITY, 0.008, 0.003) - 0.003) < 1e-15);
+    assert_true(fabs(gap[1] - 0.005) < 1e-15);
+    assert_true(move(gap, up, INFINITY, 0.001, 0.003) == 0.0); /* apart: whatever its stress */
+    assert_true(fabs(gap[1] - 0.006) < 1e-15);
+    assert_true(move(gap, up, INFINITY, 0.0, 0.003) == 0.0);
+    assert_true(fabs(gap[1] - 0.006) < 1e-15);
+}
+
+/* Soil that has left one face presses on the one opposite; coming back it closes the first gap before it opens
+ * another. What it has left is forgotten with the face. */
+static void opposite_faces_tell_each_other_apart(void **state)
+{
+    static const double normals[2][3] = {{0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}};
+    (void)state;
+    for (int which = 0; which < 2; ++which) {
+        double gap[3] = {0.0};
+        double mirrored[2];
+        move_between(gap, normals, which, (const double[3]){0.0, 0.01, 0.0}, mirrored);
+        assert_true(mirrored[0] == 0.0 && fabs(mirrored[1] + 0.01) < 1e-15);
+        assert_true(fabs(gap[1] - 0.01) < 1e-15);
+        move_between(gap, normals, which, (const double[3]){0.0, -0.004, 0.0}, mirrored);
+        assert_true(mirrored[0] == 0.0 && mirrored[1] == 0.0);
+        assert_true(fabs(gap[1] - 0.006) < 1e-15);
+        move(gap, down, INFINITY, 0.001, 0.0); /* the face below is gone */
+        move(gap, down, INFINITY, 0.001, 0.0);
+        assert_true(fabs(gap[1] + 0.001) < 1e-15);
+    }
+}
+
+/* A gap is no wider than the particle is far: what is nearer than half the first layer's depth touches, and has no gap
+ * from then on. */
+static void what_is_near_a_face_touches_it(void **state)
+{
+    double gap[3] = {0.0, 0.4, 0.0};
+    (void)state;
+    assert_true(mor_soil_contact_gap(gap, DEPTH, up, INFINITY) == 0.4);
+    assert_true(fabs(mor_soil_contact_gap(gap, DEPTH, up, 0.35) - 0.1) < 1e-15);
+    assert_true(mor_soil_contact_gap(gap, DEPTH, up, 0.2) == 0.0);
+    assert_true(mor_soil_contact_gap(gap, DEPTH, up, -0.1) == 0.0);
+    assert_true(move(gap, up, 0.2, -0.01, 0.0) == -0.01);
+    assert_true(move(gap, up, 0.255, 0.005, 0.01) == 0.005);
+    assert_true(gap[1] == 0.0);
+}
+
+/* A face that turns while soil presses on it finds no gap in what was left along it. */
+static void faces_that_turn_open_no_gap(void **state)
+{
+    double gap[3] = {0.0};
+    (void)state;
+    for (int k = 0; k < 100; ++k) {
+        const double angle = 0.01 * k;
+        const double normal[3] = {sin(angle), cos(angle), 0.0};
+        gap[0] += k == 0 ? 0.3 : 0.0; /* left of another face */
+        assert_true(move(gap, normal, INFINITY, -0.01, 0.0) == -0.01);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(face_mirrors_what_goes_beyond_the_nearest_place_so_far),
+        cmocka_unit_test(faces_of_a_corner_have_gaps_of_their_own),
+        cmocka_unit_test(flush_faces_have_one_gap),
+        cmocka_unit_test(pressure_is_taken_off_before_a_gap_opens),
+        cmocka_unit_test(opposite_faces_tell_each_other_apart),
+        cmocka_unit_test(what_is_near_a_face_touches_it),
+        cmocka_unit_test(faces_that_turn_open_no_gap),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
