@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* SLACK: spare room against regrowth, 1/n. */
-enum { SLACK = 4, FIRST_CAPACITY = 4096 };
+enum { SLACK = 16, FIRST_CAPACITY = 4096 };
 
 mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
                              int64_t n_clusters)

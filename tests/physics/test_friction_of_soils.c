@@ -23,14 +23,14 @@ static const char on_a_wall[] =
     "dimension = 2; spacing = '10 mm'; end = '0.2 s'; gravity = ('4.1458851 m/s2', '-8.8908796 m/s2', 0);"
     "domain = { min = (-0.3, -0.1, -1); max = (1.2, 0.3, 1); }; soil = ( %s );"
     "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 1, 0); }; %s } );"
-    "numerics = { courant = 0.4; }; probes = ( %s );";
+    "numerics = { courant = 0.2; }; probes = ( %s );";
 static const char on_a_body[] =
     "dimension = 2; spacing = '10 mm'; end = '0.2 s'; gravity = ('4.1458851 m/s2', '-8.8908796 m/s2', 0);"
     "domain = { min = (-0.3, -0.1, -1); max = (1.2, 0.3, 1); }; soil = ( %s );"
     "bodies = ( { name = 'floor'; motion = 'prescribed';"
     "  shape = { type = 'box'; min = (-0.2, -0.08); max = (1.1, 0); };"
     "  material = { model = 'rigid'; density = 2500; }; %s } );"
-    "numerics = { courant = 0.4; }; probes = ( %s );";
+    "numerics = { courant = 0.2; }; probes = ( %s );";
 
 #define ALL_OF_IT "{ name = 'way'; type = 'center_of_mass'; direction = (1, 0, 0); }"
 #define WAY_OF(soil) "{ name = '" soil "_way'; type = 'center_of_mass'; soil = '" soil "'; direction = (1, 0, 0); }"

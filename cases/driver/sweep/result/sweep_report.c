@@ -173,6 +173,21 @@ static void print_counts(const mor_sweep_table *table, FILE *out)
     fprintf(out, "\n");
 }
 
+/* Without anything random each group is one member, whose probability is a yes or a no. */
+static void print_certainty(const mor_sweep *sweep, FILE *out)
+{
+    int n_random = 0;
+    for (int v = 0; v < sweep->n_variables; ++v) {
+        n_random += !mor_sweep_design_is_factor(sweep, v);
+    }
+    if (sweep->n_exceed > 0 && n_random == 0) {
+        fprintf(out,
+                "\nnothing in this sweep is random, so that these probabilities are those of single members, which are "
+                "beyond the threshold or not: give 'replicates = true' to a variable such as a seed, or a "
+                "distribution\n");
+    }
+}
+
 mor_status mor_sweep_write_report(mor_context *context, mor_sweep_table *table, const mor_sweep_provenance *provenance,
                                   const mor_sweep_warnings *warnings, FILE *out)
 {
@@ -187,6 +202,7 @@ mor_status mor_sweep_write_report(mor_context *context, mor_sweep_table *table, 
     for (int k = 0; k < design->sweep->n_exceed; ++k) {
         print_exceed(table, k, width, out);
     }
+    print_certainty(design->sweep, out);
     fprintf(out,
             "\nfrom, to: interval of confidence of %g %%, of the mean by Student, of a probability by Wilson; -: too "
             "few members; used: members that the numbers are of; absent: ran to their end, had nothing to measure\n",

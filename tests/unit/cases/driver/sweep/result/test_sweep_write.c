@@ -324,6 +324,21 @@ static void report_tells_groups_whose_members_are_all_alike(void **state)
     clear(&b);
 }
 
+static void report_tells_that_nothing_is_random(void **state)
+{
+    bench b;
+    make(&b, *state);
+    fill(&b);
+    char *text = report(&b);
+    assert_null(strstr(text, "nothing in this sweep is random"));
+    free(text);
+    b.sweep.variables[1].is_replicate = false;
+    text = report(&b);
+    assert_non_null(strstr(text, "nothing in this sweep is random"));
+    free(text);
+    clear(&b);
+}
+
 static void report_tells_what_members_warned_of(void **state)
 {
     bench b;
@@ -385,6 +400,7 @@ int main(void)
         WITH_FOLDER(absent_members_count_as_it_is_said),
         WITH_FOLDER(tables_have_a_cell_for_each_head),
         WITH_FOLDER(report_tells_groups_whose_members_are_all_alike),
+        WITH_FOLDER(report_tells_that_nothing_is_random),
         WITH_FOLDER(report_tells_what_members_warned_of),
         WITH_FOLDER(commands_are_quoted_for_a_shell),
         WITH_FOLDER(charts_are_drawn_where_there_is_something_to_show),
