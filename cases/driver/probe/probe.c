@@ -513,6 +513,15 @@ mor_status mor_probe_evaluate(mor_context *context, const mor_simulation *simula
     return mor_probe_view_measure(context, &v, value);
 }
 
+mor_status mor_probe_energy_given(mor_context *context, const mor_simulation *simulation, int probe, double *share,
+                                  const char **by)
+{
+    view v;
+    mor_probe_scan_begin(simulation->probes->scan);
+    mor_probe_view_set(simulation, probe, &v);
+    return mor_probe_energy_find_given(context, &v, share, by);
+}
+
 const char *mor_probe_impulse_unit(const mor_case *the_case, int probe)
 {
     return mor_case_probe_impulse_unit(the_case->probes[probe].kind, the_case->dimension);

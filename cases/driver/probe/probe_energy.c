@@ -181,8 +181,7 @@ double mor_probe_energy_moved(const mor_simulation *s, int probe)
     return s->probes->past[probe][MOR_PROBE_RECORD_MAXIMUM];
 }
 
-mor_status mor_probe_energy_given(mor_context *context, const mor_simulation *s, int probe, double *share,
-                                  const char **by)
+mor_status mor_probe_energy_find_given(mor_context *context, const view *v, double *share, const char **by)
 {
     static const char *const names[] = {
         [PLASTIC] = "plastic strain (probe plastic_energy)",
@@ -191,11 +190,9 @@ mor_status mor_probe_energy_given(mor_context *context, const mor_simulation *s,
     double changes[ENTRIES] = {0.0};
     double error = 0.0;
     double turned = 0.0;
-    view v;
-    mor_probe_view_set(s, probe, &v);
-    MOR_TRY(context, list_changes(context, &v, changes));
-    MOR_TRY(context, find_changes(context, &v, &error, &turned));
-    turned = fmax(turned, v.past[MOR_PROBE_RECORD_MAXIMUM]);
+    MOR_TRY(context, list_changes(context, v, changes));
+    MOR_TRY(context, find_changes(context, v, &error, &turned));
+    turned = fmax(turned, v->past[MOR_PROBE_RECORD_MAXIMUM]);
     *share = 0.0;
     *by = names[PLASTIC];
     for (int k = PLASTIC; k <= BOUNDARY; ++k) {

@@ -125,6 +125,13 @@ extern const mor_probe_measure mor_probe_gauge_measures[];
 /** Probes of where energy goes. */
 extern const mor_probe_measure mor_probe_energy_measures[];
 
+/** What mor_probe_energy_given tells, of a probe of type energy_balance.
+ *  @param v     [in]   of the probe
+ *  @param share [out]  one number, unit 1
+ *  @param by    [out]  one static text
+ *  Returns: as mor_probe_evaluate. */
+mor_status mor_probe_energy_find_given(mor_context *context, const mor_probe_view *v, double *share, const char **by);
+
 /** Makes the scratch of a simulation's probes.
  *  @param scan       [out]     one pointer; owned by the caller
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. */
