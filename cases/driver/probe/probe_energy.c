@@ -146,9 +146,8 @@ static mor_status list_changes(mor_context *context, const view *v, double *chan
 }
 
 /* The sum of the changes is the error, half the sum of their sizes the energy that changed hands. */
-static mor_status find_changes(mor_context *context, const view *v, double *error, double *turned)
+static mor_status find_changes(mor_context *context, const view *v, double *changes, double *error, double *turned)
 {
-    double changes[ENTRIES] = {0.0};
     MOR_TRY(context, list_changes(context, v, changes));
     *error = 0.0;
     *turned = 0.0;
@@ -162,15 +161,17 @@ static mor_status find_changes(mor_context *context, const view *v, double *erro
 /* How much energy has changed hands between now and the start. */
 static mor_status turned_energy(mor_context *context, const view *v, double *value)
 {
+    double changes[ENTRIES] = {0.0};
     double error = 0.0;
-    return find_changes(context, v, &error, value);
+    return find_changes(context, v, changes, &error, value);
 }
 
 static mor_status energy_balance(mor_context *context, const view *v, double *value)
 {
+    double changes[ENTRIES] = {0.0};
     double error = 0.0;
     double turned = 0.0;
-    MOR_TRY(context, find_changes(context, v, &error, &turned));
+    MOR_TRY(context, find_changes(context, v, changes, &error, &turned));
     turned = fmax(turned, v->past[MOR_PROBE_RECORD_MAXIMUM]);
     *value = turned == 0.0 ? 1.0 : 1.0 + error / turned;
     return MOR_OK;
@@ -190,8 +191,7 @@ mor_status mor_probe_energy_find_given(mor_context *context, const view *v, doub
     double changes[ENTRIES] = {0.0};
     double error = 0.0;
     double turned = 0.0;
-    MOR_TRY(context, list_changes(context, v, changes));
-    MOR_TRY(context, find_changes(context, v, &error, &turned));
+    MOR_TRY(context, find_changes(context, v, changes, &error, &turned));
     turned = fmax(turned, v->past[MOR_PROBE_RECORD_MAXIMUM]);
     *share = 0.0;
     *by = names[PLASTIC];

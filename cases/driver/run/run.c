@@ -309,7 +309,7 @@ static void warn_of_motion(mor_context *context, const mor_simulation *s)
  * so that the balance may look right. */
 static mor_status warn_of_given_energy(mor_context *context, const mor_simulation *s, int probe)
 {
-    const double advisable = 0.1; /* two to four times what flows with rocks had */
+    const double advisable = 0.1; /* slopes and flows with rough rocks have up to 0.04 */
     const char *by = NULL;
     double share = 0.0;
     MOR_TRY(context, mor_probe_energy_given(context, s, probe, &share, &by));
