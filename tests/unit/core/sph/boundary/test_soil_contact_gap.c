@@ -4,13 +4,7 @@
 #include "core/base/random.h"
 #include "core/sph/boundary/soil_contact_internal.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/common/floor.h"
 
 /* Gaps between a particle and faces that it leaves and meets again. */
 
@@ -171,6 +165,43 @@ static void faces_that_turn_open_no_gap(void **state)
     }
 }
 
+/* Strain by the mirrored part of motion away takes off the pressure, and no more: M times 2 grad W for each meter. */
+static void mirrored_motion_takes_off_the_pressure(void **state)
+{
+    static const double across[1] = {1.5};
+    const double pressure = 4e3;
+    const double length = 1e-3; /* s */
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        floor_case f;
+        double gap[3 * ASSEMBLY_MAX] = {0.0};
+        const double before[3 * ASSEMBLY_MAX] = {0.0};
+        floor_open_single(&f, dimension, MOR_WALL_COULOMB, 0.3);
+        const mor_wall_request request = floor_request(&f, MOR_WALL_COULOMB, 0.3);
+        floor_add(&f, &request);
+        f.presses_only = true;
+        floor_set_stress(&f, -pressure, 0.0);
+        double *record = floor_record(&f);
+        record[MOR_RECORD_VELOCITY + dimension - 1] = 10.0;
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        mor_contact_soil soil = floor_soil(&f, MOR_DISSIPATION_BOTH);
+        soil.gap = before;
+        soil.across = across;
+        soil.depth = DEPTH;
+        soil.length = length;
+        const mor_contact_rates rates = {f.velocity_gradient, f.density_rate, gap};
+        mor_soil_contact_sum_gradient(&f.soil.context, &f.wall, &soil, &rates);
+        const double stiffness =
+            1.5 * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
+        const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
+        const double mirrored = f.wall.closure[0] * 10.0 * length;
+        assert_true(mirrored < 10.0 * length); /* or there is nothing to take up */
+        assert_true(fabs(stiffness * 2.0 * gradient * mirrored / pressure - 1.0) < 1e-9); /* rounding */
+        assert_true(fabs(gap[dimension - 1] + mirrored - 10.0 * length) < 1e-12);
+        floor_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -181,6 +212,7 @@ int main(void)
         cmocka_unit_test(opposite_faces_tell_each_other_apart),
         cmocka_unit_test(what_is_near_a_face_touches_it),
         cmocka_unit_test(faces_that_turn_open_no_gap),
+        cmocka_unit_test(mirrored_motion_takes_off_the_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
