@@ -202,6 +202,51 @@ static void mirrored_motion_takes_off_the_pressure(void **state)
     }
 }
 
+/* Acceleration across the floor of a particle whose stress diverges along it by what is given, Pa/m; m/s2. */
+static double press_with(floor_case *f, const mor_contact_soil *soil, double divergence)
+{
+    const int axis = f->soil.constants.dimension - 1;
+    memset(f->acceleration, 0, sizeof f->acceleration);
+    f->wall.divergence[axis] = divergence; /* of the first lane of the only slot, along the face */
+    mor_soil_contact_sum_forces(&f->soil.context, &f->wall, soil, f->acceleration);
+    return f->acceleration[axis];
+}
+
+/* What continues the stress adds no more than the force of the particle's own, and takes no more away. */
+static void continued_stress_is_bounded_by_the_pressure(void **state)
+{
+    static const double across[1] = {1.5};
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        floor_case f;
+        const double before[3 * ASSEMBLY_MAX] = {0.0};
+        floor_open_single(&f, dimension, MOR_WALL_COULOMB, 0.3);
+        mor_wall_request request = floor_request(&f, MOR_WALL_COULOMB, 0.3);
+        request.stress = MOR_WALL_STRESS_ALONG;
+        floor_add(&f, &request);
+        f.presses_only = true;
+        floor_set_stress(&f, -4e3, 0.0);
+        floor_run(&f, MOR_DISSIPATION_BOTH);
+        mor_contact_soil soil = floor_soil(&f, MOR_DISSIPATION_BOTH);
+        soil.gap = before;
+        soil.across = across;
+        soil.depth = DEPTH;
+        soil.length = 1e-3; /* s */
+        assert_int_equal(f.wall.n_slots, 1);
+        const double own = press_with(&f, &soil, 0.0);
+        const double unit = 1.0; /* Pa/m */
+        const double rate = (press_with(&f, &soil, unit) - own) / unit;
+        assert_true(own > 0.0 && rate > 0.0);
+        for (int k = -8; k <= 8; ++k) { /* to four times the bound */
+            const double continued = 0.5 * k * own;
+            const double along = press_with(&f, &soil, continued / rate);
+            const double bounded = fmax(fmin(continued, own), -own);
+            assert_true(fabs(along - own - bounded) < 1e-9 * own); /* the rate is a difference, rounded */
+        }
+        floor_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +258,7 @@ int main(void)
         cmocka_unit_test(what_is_near_a_face_touches_it),
         cmocka_unit_test(faces_that_turn_open_no_gap),
         cmocka_unit_test(mirrored_motion_takes_off_the_pressure),
+        cmocka_unit_test(continued_stress_is_bounded_by_the_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
