@@ -140,25 +140,25 @@ mor_status mor_material_find_tension(const mor_material_instance *law, int part,
     const double strain = 1.0e-10;
     const double length = 1.0e-8; /* s */
     double speed = 0.0;
-    trial volume;
-    trial axis;
+    trial stretched;
+    trial pressed;
     *across = 0.0;
-    mor_status status = start_trial(&volume, law, part, density);
+    mor_status status = start_trial(&stretched, law, part, density);
     if (status == MOR_OK) {
-        status = law->operations.wave_speed(law, &volume.batch, &speed);
+        status = law->operations.wave_speed(law, &stretched.batch, &speed);
     }
     if (status == MOR_OK) {
-        status = expand(&volume, law, (const double[3]){strain, strain, strain}, length);
+        status = expand(&stretched, law, (const double[3]){strain, 0.0, 0.0}, length);
     }
     if (status == MOR_OK) {
-        status = start_trial(&axis, law, part, density);
+        status = start_trial(&pressed, law, part, density);
     }
     if (status == MOR_OK) {
-        status = expand(&axis, law, (const double[3]){strain, 0.0, 0.0}, length);
+        status = expand(&pressed, law, (const double[3]){-strain, 0.0, 0.0}, length);
     }
     const double scale = strain * density * speed * speed;
-    if (status == MOR_OK && (volume.stress[0] + volume.stress[1] + volume.stress[2]) / 3.0 > 1.0e-3 * scale) {
-        *across = axis.stress[0] / scale;
+    if (status == MOR_OK && stretched.stress[0] > 1.0e-3 * scale) {
+        *across = -pressed.stress[0] / scale;
     }
     return status;
 }

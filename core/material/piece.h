@@ -72,12 +72,12 @@ mor_status mor_material_find_speed(const mor_material_instance *law, int part, d
  *  Returns: what the law returns. */
 mor_status mor_material_find_step(const mor_material_instance *law, const mor_batch *batch, double *step);
 
-/** Finds how stiff a law is in tension, by small expansions of soil without stress.
+/** Finds whether soil of a law without stress bears tension when it is stretched along one axis, and how stiff it is.
  *  @param law     [in]   of the soil
  *  @param part    [in]   of a composite, which of its laws; else 0
  *  @param density [in]   unit kg/m3
- *  @param across  [out]  one number; rise of the stress along an axis over the strain along it alone, over rho c^2, 1;
- *                        0: soil without stress that expands has no mean tension
+ *  @param across  [out]  one number; rise of the pressure along an axis over the strain along it alone, over rho c^2,
+ *                        1; 0: soil that is stretched has no tension along that axis
  *  Returns: what the law returns. */
 mor_status mor_material_find_tension(const mor_material_instance *law, int part, double density, double *across);
 

@@ -75,7 +75,7 @@ static bool has_audit(const void *owner)
 #define STANDING                                                                                                       \
     (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
      BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |      \
-     BIT(GAP) | CALM)
+     BIT(GAP) | BIT(FACE_GROWTH) | CALM)
 
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
@@ -112,8 +112,9 @@ static const mor_stage soil_stages[] = {
      "impulse given to soil that sleeps, when switched on", mor_soil_may_sleep},
     {"boundary forces", mor_soil_sum_boundary_forces,
      SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(STRAIN_RATE) |
-         BIT(GAP),
-     SHARED(WALL_FORCES), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them", NULL},
+         BIT(GAP) | BIT(DENSITY_RATE) | BIT(FACE_GROWTH) | BIT(MEAN_STRESS),
+     SHARED(WALL_FORCES) | BIT(GROWTH), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them",
+     NULL},
     {"kick", mor_soil_kick, SHARED(LISTS), 0,
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
      "velocities to the end of the step", NULL},
@@ -121,8 +122,8 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE) | SHARED(MOMENTS), 0,
      "velocity gradient and density rate by the neighbors", NULL},
     {"boundary gradient", mor_soil_sum_boundary_gradient,
-     SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(STATE), BIT(GAP_BEFORE),
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(GAP) | SHARED(WALL_SUMS),
+     SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(MEAN_STRESS), BIT(GAP_BEFORE),
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(GAP) | BIT(FACE_GROWTH) | BIT(GROWTH) | SHARED(WALL_SUMS),
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | BIT(MASS) | BIT(VELOCITY) |
@@ -171,10 +172,7 @@ static const mor_stage soil_stages[] = {
      SHARED(ORDER), "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
-static const uint64_t evolving_fields = BIT(MEAN_STRESS) | BIT(FLOW) | CALM | BIT(POSITION) | BIT(VELOCITY) |
-                                        BIT(MASS) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |
-                                        BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |
-                                        BIT(GAP) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
+static const uint64_t evolving_fields = STANDING | BIT(MASS) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
                                         SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
@@ -339,7 +337,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= settings->scheme.separation_memory ? ~(uint64_t)0 : ~BIT(SEPARATION);
-    fields &= soil->keeps_gaps ? ~(uint64_t)0 : ~(BIT(GAP) | BIT(GAP_BEFORE));
+    fields &= soil->keeps_gaps ? ~(uint64_t)0 : ~(BIT(GAP) | BIT(GAP_BEFORE) | BIT(FACE_GROWTH) | BIT(GROWTH));
     fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~CALM;
     fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
                                                                                                : ~BIT(CROSSINGS);

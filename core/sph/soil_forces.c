@@ -196,6 +196,8 @@ static mor_contact_soil see_soil(const mor_soil *soil, mor_view *view, const mor
                               .records = records,
                               .depth = 0.5 * soil->settings.spacing,
                               .gap = mor_view_read(view, MOR_FIELD_GAP),
+                              .growth = mor_view_write(view, MOR_FIELD_GROWTH),
+                              .mean_stress = mor_view_read(view, MOR_FIELD_MEAN_STRESS),
                               .across = soil->across,
                               .length = step->length,
                               .n_particles = soil->set.n_particles};
@@ -212,6 +214,11 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
     mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
     mor_contact_soil seen = see_soil(soil, view, step, arrays.records);
     seen.strain_rate = mor_view_read(view, MOR_FIELD_STRAIN_RATE);
+    mor_soil_contact_find_growth(context, &seen, mor_view_read(view, MOR_FIELD_DENSITY_RATE),
+                                 mor_view_read(view, MOR_FIELD_FACE_GROWTH));
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact_add_growth(context, mor_soil_contact_at(soil, k), &seen);
+    }
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_FORCES, mor_soil_contact_at(soil, k));
         mor_soil_contact_sum_divergence(context, contact, soil->table, &soil->constants, arrays.records, arrays.inner,
@@ -220,8 +227,7 @@ mor_status mor_soil_sum_boundary_forces(mor_context *context, void *owner, mor_v
         if (soil->watch.run != NULL) {
             soil->watch.run(context, soil->watch.owner, contact, arrays.records, arrays.n_particles);
         }
-        mor_soil_contact_share_forces(context, contact, soil->table, &soil->constants, arrays.records,
-                                      arrays.n_particles);
+        mor_soil_contact_share_forces(context, contact, soil->table, &soil->constants, seen.records, seen.n_particles);
     }
     return MOR_OK;
 }
@@ -248,18 +254,22 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     mor_contact_soil seen = see_soil(soil, view, step, records);
     const mor_contact_rates rates = {.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
                                      .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
-                                     .gap = mor_view_write(view, MOR_FIELD_GAP)};
+                                     .gap = mor_view_write(view, MOR_FIELD_GAP),
+                                     .face_growth = mor_view_write(view, MOR_FIELD_FACE_GROWTH)};
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
-    seen.gap = mor_view_write(view, MOR_FIELD_GAP_BEFORE);
-    mor_soil_contact_take_gaps(context, soil->sleep.states, soil->set.n_particles, rates.gap,
-                               mor_view_write(view, MOR_FIELD_GAP_BEFORE));
+    double *before = mor_view_write(view, MOR_FIELD_GAP_BEFORE);
+    seen.gap = before;
+    mor_soil_contact_take_gaps(context, &seen, soil->sleep.states, &rates, before);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         /* Rocks have moved on since the boundary forces were summed, but their points in the records have not; the
          * velocity there is now that after this step, docs/theory/coupling.md, C6b. */
         mor_soil_contact_update_velocity(context, contact, soil->table, &soil->constants, records);
-        mor_soil_contact_sum_gradient(context, contact, &seen, &rates);
+        mor_soil_contact_add_growth(context, contact, &seen);
+    }
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        mor_soil_contact_sum_gradient(context, mor_soil_contact_at(soil, k), &seen, &rates);
     }
     mor_hold_stop(&soil->hold, rates.velocity_gradient, 9);
     mor_hold_stop(&soil->hold, rates.density_rate, 1);

@@ -18,6 +18,10 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Motion along a boundary up to this many times what the soil's rate of shear explains is shear, 1. */
 #define SHEARS 20.0
 
+/* Kernel gradient over a boundary times the spacing below which a particle is behind the first layer, 1: at a plane it
+ * is 0.44 half a spacing away, 0.21 at a spacing and 0.06 at one and a half. */
+#define BEHIND 0.2
+
 /* Share by which a traction is above the limit of friction where all motion is slip, 1. */
 #define RAMP 0.05
 
@@ -157,6 +161,8 @@ typedef struct boundary_terms {
     double depth;                   /* of the particle under the face of the soil, m */
     double across;                  /* stiffness across the face over rho c0^2, 1; 0: no gap is kept */
     double gap;                     /* between the particle and the face, m */
+    double held;                    /* tension that the face bears for a moment, Pa */
+    double growth;                  /* of its volume in the step if the faces mirror all, 1 */
     double step;                    /* length of the step, s */
 } boundary_terms;
 
@@ -168,8 +174,9 @@ typedef struct mirrored {
 /* Leaves of the motion of a particle along a boundary what is slip, and not shear of the soil between the particle and
  * its face, whose speed is 2 D n times the depth: what grows away from the face, with the motion. The rate is a fit
  * over the support and shows a part of the shear of a thin layer along the face, so that SHEARS times as much counts as
- * shear; a block that slides has next to none. Where the particle's own traction is above the limit of friction the
- * soil bears more than that, and all of its motion is slip.
+ * shear; a block that slides has next to none. What is behind the first layer does not slip: its shear says nothing of
+ * that between it and the face. Where the particle's own traction is above the limit of friction the soil bears more
+ * than that, and all of its motion is slip.
  * stick: the limit over that traction, at most 1; slip: across the normal, m/s */
 static void leave_slip(const boundary_terms *p, const double *normal, double stick, double *slip)
 {
@@ -181,7 +188,8 @@ static void leave_slip(const boundary_terms *p, const double *normal, double sti
     }
     mor_symmetric_apply(p->strain_rate, normal, shear);
     const double rate = mor_max(mor_vector_dot(shear, slip) / speed, 0.0);
-    const double part = 1.0 - counts * mor_min(SHEARS * 2.0 * p->depth * rate / speed, 1.0);
+    const bool is_behind = 2.0 * p->depth * mor_vector_length(p->gradient) < BEHIND;
+    const double part = 1.0 - counts * (is_behind ? 1.0 : mor_min(SHEARS * 2.0 * p->depth * rate / speed, 1.0));
     for (int a = 0; a < 3; ++a) {
         slip[a] *= part;
     }
@@ -238,15 +246,6 @@ static double limit_friction(const double *record, double limit, double area, do
     return trial > limit ? (limit + noise) / (trial + noise) : 1.0;
 }
 
-/* The normal of a boundary, eq. 33: the kernel gradient over it points into it. */
-static void find_normal(const double *gradient, double *normal)
-{
-    const double length = mor_vector_length(gradient);
-    for (int a = 0; a < 3; ++a) {
-        normal[a] = -gradient[a] / length;
-    }
-}
-
 /* Pressure by the one-sided Riemann problem, eqs. 32 to 34, Pa.
  * closing: speed towards the boundary, m/s; pressed: pressure of the particle's stress on it, Pa */
 static double find_riemann_pressure(const boundary_terms *p, const double *record, double closing, double pressed)
@@ -263,19 +262,26 @@ static double find_touch(const boundary_terms *p, double closing)
     return p->gap > 0.0 ? comes > p->gap ? 1.0 - p->gap / comes : 0.0 : 1.0;
 }
 
-/* Acceleration by a boundary that only presses, (W3c), m/s2: that of the particle's own stress and what continues it,
- * which is no larger. Where the particle leaves, its work in the step is no more than what is stored in the pressure.
+/* Acceleration by a boundary that only presses, (W3c), m/s2: that of the particle's own stress, down to the tension
+ * that the face bears for a moment, and what continues it, which is no larger. Where the particle leaves, the mean of
+ * what falls to that tension within the step.
  * closing: speed towards the boundary, m/s */
 static double press(const boundary_terms *p, const double *record, double closing, double own, double continued)
 {
-    const double pressing = find_touch(p, closing) * mor_max(own, 0.0);
-    const double along = pressing + mor_max(mor_min(continued, pressing), -pressing);
     const double impedance = record[MOR_RECORD_IMPEDANCE];
-    const double speed = mor_max(-closing, 0.0);
-    /* own = 2 p |grad| / rho, unloaded over p / (2 M |grad|): half of that times own is p^2 / (2 rho M) */
-    const double pressure = 0.5 * pressing * record[MOR_RECORD_DENSITY] / mor_vector_length(p->gradient);
-    const double stored = 0.5 * pressure * pressure / (p->across * impedance * impedance);
-    return along * speed * p->step > stored ? stored / (speed * p->step) : along;
+    const double density = record[MOR_RECORD_DENSITY];
+    const double touch = find_touch(p, closing);
+    const double unit = 2.0 * mor_vector_length(p->gradient) / density; /* 1/(m kg/m3) */
+    const double held = unit * p->held;
+    const double pressing = mor_max(own, -held);
+    const double bound = mor_max(pressing, held);
+    const double along = mor_max(pressing + mor_max(mor_min(continued, bound), -bound), -held);
+    /* The volume grows by (p + held) / M until the face lets go; half of that takes the mean of both pressures. */
+    const double lasts = 0.5 * (pressing + held) / (unit * p->across * impedance * impedance / density);
+    const double most = p->growth > lasts
+                            ? (pressing + held) * lasts / p->growth - held * mor_min(1.0, 2.0 * lasts / p->growth)
+                            : along;
+    return touch * (closing < 0.0 ? mor_min(along, most) : along);
 }
 
 /* Adds the acceleration of one particle by the wall to what the continued stress gave. A boundary that only presses
@@ -290,7 +296,7 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
     }
     double normal[3];
     double relative[3];
-    find_normal(gradient, normal);
+    mor_soil_contact_normal(gradient, normal);
     for (int a = 0; a < 3; ++a) {
         relative[a] = record[MOR_RECORD_VELOCITY + a] - p->velocity[a];
     }
@@ -350,22 +356,19 @@ static void attribute_corner(const double *transfer, const double *record, doubl
     }
 }
 
-/* Distance of a particle from the boundary, m; infinite where it is not known. */
-static double find_distance(const mor_soil_contact *contact, int64_t lane)
+/* What is kept of the contact of a particle with a boundary that only presses. */
+static void find_contact(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t particle,
+                         boundary_terms *p)
 {
-    return contact->seen_faces != NULL ? contact->seen_faces[MOR_FACE_SUMS * lane + MOR_FACE_DISTANCE] : INFINITY;
-}
-
-/* Gap between a particle and the boundary, m. */
-static double find_gap(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t particle)
-{
-    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
     double normal[3];
-    if (!(mor_vector_length(gradient) > 0.0)) {
-        return 0.0;
+    p->gap = p->growth = p->held = 0.0;
+    if (p->across > 0.0 && mor_vector_length(p->gradient) > 0.0) {
+        mor_soil_contact_normal(p->gradient, normal);
+        p->gap = mor_soil_contact_gap(soil->gap + 3 * particle, soil->depth, normal,
+                                      mor_soil_contact_distance(contact, lane));
+        p->growth = mor_soil_contact_growth(soil, particle);
+        p->held = mor_soil_contact_held(soil, particle, normal);
     }
-    find_normal(gradient, normal);
-    return mor_soil_contact_gap(soil->gap + 3 * particle, soil->depth, normal, find_distance(contact, lane));
 }
 
 /* Finds the boundary forces of one slot and adds them to the acceleration of its particles. */
@@ -404,7 +407,7 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
         p.across = mor_soil_contact_across(soil, p.friction.kind, i);
-        p.gap = p.across > 0.0 ? find_gap(contact, soil, lane, i) : 0.0;
+        find_contact(contact, soil, lane, i, &p);
         const mirrored parts = find_boundary_acceleration(&p, record, own);
         contact->stick[lane] = parts.along;
         contact->closure[lane] = parts.across;
@@ -469,37 +472,9 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
     }
 }
 
-/* What of the motion of a particle across a boundary is mirrored, 1. Pressure is taken off by what the strain of the
- * mirrored motion, 2 grad W for each meter, needs for it.
- * speed: away from the boundary, m/s; across: stiffness over rho c0^2, 1 */
-static double find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
-                           int64_t particle, double speed, double across, double *gap)
-{
-    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
-    const double *record = soil->records + particle * MOR_RECORD_SIZE;
-    const double length = mor_vector_length(gradient);
-    const double impedance = record[MOR_RECORD_IMPEDANCE];
-    const double modulus = across * impedance * impedance / record[MOR_RECORD_DENSITY];
-    double normal[3];
-    double traction[3];
-    if (!(length > 0.0)) {
-        return 1.0;
-    }
-    find_normal(gradient, normal);
-    mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
-    const double pressed = mor_max(-mor_vector_dot(traction, normal), 0.0);
-    const mor_contact_leave leave = {.gap = soil->gap + 3 * particle,
-                                     .depth = soil->depth,
-                                     .normal = normal,
-                                     .distance = find_distance(contact, lane),
-                                     .leaves = speed * soil->length,
-                                     .unloads = pressed / (2.0 * modulus * length)};
-    return mor_soil_contact_leave_face(&leave, gap + 3 * particle);
-}
-
 /* Velocity that the wall's mirror image has beyond the particle's own, 2 (u - v) where it sticks. */
 static void mirror_motion(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t particle,
-                          mor_wall_friction friction, double *gap, double *difference)
+                          mor_wall_friction friction, const mor_contact_rates *rates, double *difference)
 {
     const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
     const double *record = soil->records + particle * MOR_RECORD_SIZE;
@@ -513,7 +488,9 @@ static void mirror_motion(mor_soil_contact *contact, const mor_contact_soil *soi
     const double stiffness = mor_soil_contact_across(soil, friction, particle);
     if (stiffness > 0.0) {
         const double speed = -across * sqrt(length2);
-        contact->closure[lane] = find_closure(contact, soil, lane, particle, speed, stiffness, gap);
+        contact->closure[lane] =
+            mor_soil_contact_find_closure(contact, soil, lane, particle, speed, stiffness, rates->gap);
+        rates->face_growth[particle] -= 2.0 * contact->closure[lane] * across * length2;
     }
     for (int a = 0; a < 3; ++a) {
         const double normal = across * gradient[a];
@@ -533,7 +510,7 @@ static void add_slot_gradient(mor_soil_contact *contact, const mor_contact_soil 
         const double *record = soil->records + i * MOR_RECORD_SIZE;
         double difference[3];
         const mor_wall_friction friction = mor_soil_contact_friction(patch, soil->region, i).kind;
-        mirror_motion(contact, soil, lane, i, friction, rates->gap, difference);
+        mirror_motion(contact, soil, lane, i, friction, rates, difference);
         for (int a = 0; a < 9; ++a) {
             rates->velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
         }

@@ -17,16 +17,59 @@
 #define NEAREST 0.5
 #define SLANT 0.01
 
-void mor_soil_contact_take_gaps(mor_context *context, const int8_t *sleep, int64_t n_particles, double *gap,
-                                double *before)
+void mor_soil_contact_take_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
+                                const mor_contact_rates *rates, double *before)
 {
-    const int64_t n_clusters = (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER;
-    MOR_PARALLEL_FOR (context, cluster, gap != NULL ? n_clusters : 0, MOR_CONTACT_GRAIN) {
+    const int64_t n_clusters = (soil->n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER;
+    MOR_PARALLEL_FOR (context, cluster, rates->gap != NULL ? n_clusters : 0, MOR_CONTACT_GRAIN) {
         const int64_t first = cluster * MOR_CLUSTER;
-        const int64_t n = n_particles - first < MOR_CLUSTER ? n_particles - first : MOR_CLUSTER;
-        memcpy(before + 3 * first, gap + 3 * first, (size_t)(3 * n) * sizeof *gap);
+        const int64_t n = soil->n_particles - first < MOR_CLUSTER ? soil->n_particles - first : MOR_CLUSTER;
+        memcpy(before + 3 * first, rates->gap + 3 * first, (size_t)(3 * n) * sizeof(double));
         if (!mor_sleep_is(sleep, cluster, MOR_SLEEP_ASLEEP)) {
-            memset(gap + 3 * first, 0, (size_t)(3 * n) * sizeof *gap);
+            memset(rates->gap + 3 * first, 0, (size_t)(3 * n) * sizeof(double));
+            memset(rates->face_growth + first, 0, (size_t)n * sizeof(double));
+        }
+        for (int64_t i = first; i < first + n; ++i) {
+            soil->growth[2 * i + 1] = 0.0;
+        }
+    }
+}
+
+void mor_soil_contact_find_growth(mor_context *context, const mor_contact_soil *soil, const double *density_rate,
+                                  const double *face_growth)
+{
+    MOR_PARALLEL_FOR (context, i, soil->growth != NULL ? soil->n_particles : 0, MOR_BLOCK) {
+        const double density = soil->records[i * MOR_RECORD_SIZE + MOR_RECORD_DENSITY];
+        soil->growth[2 * i] = -density_rate[i] / density - face_growth[i];
+        soil->growth[2 * i + 1] = 0.0;
+    }
+}
+
+/* Rate of volume of a particle by a face that mirrors all of its motion, 1/s. */
+static double find_face_growth(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t i)
+{
+    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    const double *velocity = mor_soil_contact_velocity(contact, lane);
+    double relative[3];
+    for (int a = 0; a < 3; ++a) {
+        relative[a] = soil->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + a] - velocity[a];
+    }
+    return -2.0 * mor_vector_dot(relative, gradient);
+}
+
+void mor_soil_contact_add_growth(mor_context *context, const mor_soil_contact *contact, const mor_contact_soil *soil)
+{
+    MOR_PARALLEL_FOR (context, place, soil->growth != NULL ? contact->relation.n_occupied : 0, MOR_CONTACT_GRAIN) {
+        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
+            const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+            const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
+            for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
+                const int64_t i = first + k;
+                const mor_wall_friction friction = mor_soil_contact_friction(patch, soil->region, i).kind;
+                if (mor_soil_contact_across(soil, friction, i) > 0.0) {
+                    soil->growth[2 * i + 1] += find_face_growth(contact, soil, slot * MOR_CLUSTER + k, i);
+                }
+            }
         }
     }
 }
@@ -43,7 +86,7 @@ double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after)
     const double open = mor_soil_contact_gap(it->gap, it->depth, it->normal, it->distance);
     double follows = 0.0; /* of the motion, what goes with the face, m */
     if (it->leaves > 0.0) {
-        follows = open > 0.0 ? 0.0 : mor_min(it->leaves, it->unloads);
+        follows = open > 0.0 ? 0.0 : mor_max(mor_min(it->leaves, it->unloads), 0.0);
     } else {
         follows = mor_min(it->leaves + open, 0.0);
     }
@@ -56,4 +99,34 @@ double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after)
         after[a] += (left - sum) * it->normal[a];
     }
     return it->leaves != 0.0 ? follows / it->leaves : open > 0.0 ? 0.0 : 1.0;
+}
+
+/* What the faces bear is taken off by what the strain of the mirrored motion, 2 grad W for each meter, needs for it:
+ * what the volume would grow beyond that opens the gap. */
+double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
+                                     int64_t particle, double speed, double across, double *gap)
+{
+    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
+    const double *record = soil->records + particle * MOR_RECORD_SIZE;
+    const double length = mor_vector_length(gradient);
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
+    const double modulus = across * impedance * impedance / record[MOR_RECORD_DENSITY];
+    double normal[3];
+    double traction[3];
+    if (!(length > 0.0)) {
+        return 1.0;
+    }
+    mor_soil_contact_normal(gradient, normal);
+    mor_symmetric_apply(record + MOR_RECORD_STRESS, normal, traction);
+    const double held = mor_soil_contact_held(soil, particle, normal);
+    const double bears = mor_max(held - mor_vector_dot(traction, normal), 0.0);
+    const double leaves = speed * soil->length;
+    const double beyond = mor_max(mor_soil_contact_growth(soil, particle) - bears / modulus, 0.0);
+    const mor_contact_leave leave = {.gap = soil->gap + 3 * particle,
+                                     .depth = soil->depth,
+                                     .normal = normal,
+                                     .distance = mor_soil_contact_distance(contact, lane),
+                                     .leaves = leaves,
+                                     .unloads = leaves - beyond / (2.0 * length)};
+    return mor_soil_contact_leave_face(&leave, gap + 3 * particle);
 }

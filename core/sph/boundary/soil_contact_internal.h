@@ -81,7 +81,7 @@ typedef struct mor_contact_leave {
     const double *normal; /* shape [3]; of the face, into the soil, 1 */
     double distance;      /* from the face, m; infinite where it is not known */
     double leaves;        /* motion away from the face in this step, m; negative: towards it */
-    double unloads;       /* motion away that takes the pressure off the face, m */
+    double unloads;       /* motion away that takes the pressure off the face, m; negative: none is left */
 } mor_contact_leave;
 
 /** Finds what of the motion of a particle across a face the face mirrors, (W3b), and takes up the rest as the gap to
@@ -89,6 +89,52 @@ typedef struct mor_contact_leave {
  *  @param after [in,out]  shape [3]; gap of the particle after the step, from the faces before this one, unit m
  *  Returns: the part of the motion that is mirrored, 0 to 1. */
 double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after);
+
+/** By how much a particle grows in the step if faces that only press mirror all of its motion, 1; for soil with
+ *  gaps. */
+static inline double mor_soil_contact_growth(const mor_contact_soil *soil, int64_t particle)
+{
+    return (soil->growth[2 * particle] + soil->growth[2 * particle + 1]) * soil->length;
+}
+
+/** The normal of a boundary, eq. 33: the kernel gradient over it points into it.
+ *  @param gradient [in]   shape [3]; not zero, unit 1/m
+ *  @param normal   [out]  shape [3], unit 1 */
+static inline void mor_soil_contact_normal(const double *gradient, double *normal)
+{
+    const double length = mor_vector_length(gradient);
+    for (int a = 0; a < 3; ++a) {
+        normal[a] = -gradient[a] / length;
+    }
+}
+
+/** Distance of a particle from a boundary that is near, (W8), m; infinite where it is not known.
+ *  @param lane [in]  of the slots */
+static inline double mor_soil_contact_distance(const mor_soil_contact *contact, int64_t lane)
+{
+    return contact->seen_faces != NULL ? contact->seen_faces[MOR_FACE_SUMS * lane + MOR_FACE_DISTANCE] : INFINITY;
+}
+
+/** Recent mean of the pressure of a particle on a face, which the face bears as tension for a moment, Pa, >= 0.
+ *  @param normal [in]  shape [3]; of the face, unit 1 */
+static inline double mor_soil_contact_held(const mor_contact_soil *soil, int64_t particle, const double *normal)
+{
+    double traction[3];
+    if (soil->mean_stress == NULL) {
+        return 0.0;
+    }
+    mor_symmetric_apply(soil->mean_stress + 6 * particle, normal, traction);
+    return mor_max(-mor_vector_dot(traction, normal), 0.0);
+}
+
+/** What of the motion of a particle across a boundary is mirrored, 0 to 1, (W3b).
+ *  @param lane     [in]      of the slots
+ *  @param particle [in]      index in the set
+ *  @param speed    [in]      away from the boundary, unit m/s
+ *  @param across   [in]      stiffness over rho c0^2, > 0, unit 1
+ *  @param gap      [in,out]  shape [n_particles, 3]; after the step, from the faces before this one, unit m */
+double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
+                                     int64_t particle, double speed, double across, double *gap);
 
 /** Friction of a patch with the soil of a particle.
  *  @param region   [in]  shape [n_particles], number of the region each is of, 1; NULL: one region
