@@ -260,7 +260,7 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     double *before = mor_view_write(view, MOR_FIELD_GAP_BEFORE);
     seen.gap = before;
-    mor_soil_contact_take_gaps(context, &seen, soil->sleep.states, &rates, before);
+    mor_soil_contact_begin_gaps(context, &seen, soil->sleep.states, &rates, before);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         /* Rocks have moved on since the boundary forces were summed, but their points in the records have not; the

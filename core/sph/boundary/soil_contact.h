@@ -78,6 +78,14 @@ typedef struct mor_soil_barrier {
     double radius;    /* r_p, m, > 0, at most the support of the kernel */
 } mor_soil_barrier;
 
+/** Rates of the volume of a particle beside faces that only press, (W3d) of docs/theory/walls.md, 1/s. */
+enum {
+    MOR_CONTACT_GROWTH_REST,  /* of the last step, but for what such faces mirrored */
+    MOR_CONTACT_GROWTH_FACES, /* by the present motion, if those that it touches mirror all of it */
+    MOR_CONTACT_GROWTH_LEFT,  /* what of that is by faces that it leaves */
+    MOR_CONTACT_GROWTHS
+};
+
 /** The soil as the boundary forces see it. Everything is borrowed. */
 typedef struct mor_contact_soil {
     mor_dissipation dissipation; /* on which sign of the closing speed the limiter acts */
@@ -90,11 +98,10 @@ typedef struct mor_contact_soil {
     double depth;                /* of a particle of the first layer under the face of the soil, m */
     const double *gap;           /* shape [n_particles, 3]; by how much each has left the faces around it that only
                                   * press, before the step, (W3b) of docs/theory/walls.md, m; NULL: none is kept */
-    double *growth; /* shape [n_particles, 2]; with gap, rate of volume but for what such faces mirror, and what
-                           * they add if they mirror all of the present motion, 1/s */
-    const double *mean_stress; /* shape [n_particles, 6]; recent mean of the stress, Pa; NULL: none is kept */
-    const double *across;      /* shape [soils]; with gap, stiffness across a face over rho c0^2, 1; 0: no gaps */
-    double length;             /* of the step, s */
+    double *growth;              /* shape [n_particles, MOR_CONTACT_GROWTHS]; with gap, units of the enum */
+    const double *mean_stress;   /* shape [n_particles, 6]; recent mean of the stress, Pa; NULL: none is kept */
+    const double *across;        /* shape [soils]; with gap, stiffness across a face over rho c0^2, 1; 0: no gaps */
+    double length;               /* of the step, s */
     int64_t n_particles;
 } mor_contact_soil;
 
@@ -384,25 +391,25 @@ typedef struct mor_contact_rates {
     double *face_growth;       /* shape [n_particles], 1/s; with gap, rate of volume by what is mirrored; added to */
 } mor_contact_rates;
 
-/** Keeps the gaps before a step, and leaves those after it to the faces that are seen in it: soil that sees none has no
- *  gap. Soil that sleeps keeps its own.
- *  @param soil   [in]      the second of each growth becomes zero
+/** Begins what boundaries change of gaps in a step: keeps those before it, and leaves those after it to the faces that
+ *  are seen in it: soil that sees none has no gap. Soil that sleeps keeps its own.
+ *  @param soil   [in,out]  growth by faces becomes zero
  *  @param sleep  [in]      shape [clusters]; states of sleep; NULL: all is awake
  *  @param rates  [in,out]  gap and face_growth become zero; without a gap nothing is done
  *  @param before [out]     shape [n_particles, 3]; what the gap was, m; NULL without */
-void mor_soil_contact_take_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
-                                const mor_contact_rates *rates, double *before);
+void mor_soil_contact_begin_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
+                                 const mor_contact_rates *rates, double *before);
 
 /** Finds at what rate the volume of particles grew in the last step but for what faces mirrored that only press.
- *  @param soil         [in]  growth is written
- *  @param density_rate [in]  shape [n_particles], of the last step, unit kg/m3/s
- *  @param face_growth  [in]  shape [n_particles], of the last step, unit 1/s */
+ *  @param soil         [in,out]  growth is written
+ *  @param density_rate [in]      shape [n_particles], of the last step, unit kg/m3/s
+ *  @param face_growth  [in]      shape [n_particles], of the last step, unit 1/s */
 void mor_soil_contact_find_growth(mor_context *context, const mor_contact_soil *soil, const double *density_rate,
                                   const double *face_growth);
 
 /** Adds what such faces of a contact would add to that rate if they mirrored all of the present motion.
- *  @param contact [in]  sums and velocities must be current
- *  @param soil    [in]  the second of each growth is added to */
+ *  @param contact [in]      sums and velocities must be current
+ *  @param soil    [in,out]  with the present motion in the records; growth by faces is added to */
 void mor_soil_contact_add_growth(mor_context *context, const mor_soil_contact *contact, const mor_contact_soil *soil);
 
 /** Adds the wall's part of the velocity gradient and of the density rate, sets closure and gaps where these are kept.

@@ -18,9 +18,13 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Motion along a boundary up to this many times what the soil's rate of shear explains is shear, 1. */
 #define SHEARS 20.0
 
-/* Kernel gradient over a boundary times the spacing below which a particle is behind the first layer, 1: at a plane it
- * is 0.44 half a spacing away, 0.21 at a spacing and 0.06 at one and a half. */
-#define BEHIND 0.2
+/* Kernel gradient over a boundary times the spacing from which on a particle is of the first layer, and by WIDTH less it
+ * is behind it, 1: at a plane it is 0.44 half a spacing away, 0.21 at a spacing and 0.06 at one and a half. */
+#define FIRST 0.2
+#define WIDTH 0.1
+
+/* Share by which a traction is below the limit of friction from which on soil yields before it slips, 1. */
+#define WEAK 0.5
 
 /* Share by which a traction is above the limit of friction where all motion is slip, 1. */
 #define RAMP 0.05
@@ -160,6 +164,7 @@ typedef struct boundary_terms {
     const double *strain_rate;      /* of the particle, 1/s; NULL: none is kept */
     double depth;                   /* of the particle under the face of the soil, m */
     double across;                  /* stiffness across the face over rho c0^2, 1; 0: no gap is kept */
+    bool is_near;                   /* the distance from the boundary is known, (W8) */
     double gap;                     /* between the particle and the face, m */
     double held;                    /* tension that the face bears for a moment, Pa */
     double growth;                  /* of its volume in the step if the faces mirror all, 1 */
@@ -171,16 +176,24 @@ typedef struct mirrored {
     double along, across;
 } mirrored;
 
+/* By how much a particle is behind the first layer, 0 to 1. */
+static double find_behind(const boundary_terms *p)
+{
+    const double sees = 2.0 * p->depth * mor_vector_length(p->gradient);
+    return mor_max(mor_min((FIRST - sees) / WIDTH, 1.0), 0.0);
+}
+
 /* Leaves of the motion of a particle along a boundary what is slip, and not shear of the soil between the particle and
  * its face, whose speed is 2 D n times the depth: what grows away from the face, with the motion. The rate is a fit
  * over the support and shows a part of the shear of a thin layer along the face, so that SHEARS times as much counts as
- * shear; a block that slides has next to none. What is behind the first layer does not slip: its shear says nothing of
- * that between it and the face. Where the particle's own traction is above the limit of friction the soil bears more
- * than that, and all of its motion is slip.
- * stick: the limit over that traction, at most 1; slip: across the normal, m/s */
-static void leave_slip(const boundary_terms *p, const double *normal, double stick, double *slip)
+ * shear; a block that slides has next to none. What is behind the first layer does not slip, unless the soil is about
+ * as strong as the friction: its rate says nothing of the shear between it and the face. Where the particle's own
+ * traction is above the limit of friction the soil bears more than that, and all of its motion is slip.
+ * used: own traction over the limit, 1; slip: across the normal, m/s */
+static void leave_slip(const boundary_terms *p, const double *normal, double used, double *slip)
 {
-    const double counts = mor_max(1.0 - (1.0 - stick) / RAMP, 0.0);
+    const double counts = mor_max(mor_min(1.0 - (used - 1.0) / RAMP, 1.0), 0.0);
+    const double weak = mor_max(mor_min((1.0 - used) / WEAK, 1.0), 0.0);
     const double speed = mor_vector_length(slip);
     double shear[3];
     if (p->strain_rate == NULL || !(speed > 0.0)) {
@@ -188,8 +201,8 @@ static void leave_slip(const boundary_terms *p, const double *normal, double sti
     }
     mor_symmetric_apply(p->strain_rate, normal, shear);
     const double rate = mor_max(mor_vector_dot(shear, slip) / speed, 0.0);
-    const bool is_behind = 2.0 * p->depth * mor_vector_length(p->gradient) < BEHIND;
-    const double part = 1.0 - counts * (is_behind ? 1.0 : mor_min(SHEARS * 2.0 * p->depth * rate / speed, 1.0));
+    const double shears = mor_min(SHEARS * 2.0 * p->depth * rate / speed, 1.0);
+    const double part = 1.0 - counts * mor_max(shears, p->is_near ? 0.0 : weak * find_behind(p));
     for (int a = 0; a < 3; ++a) {
         slip[a] *= part;
     }
@@ -330,9 +343,10 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
         const double speed = mor_vector_length(slip);
         const double limit = friction_limit(p, along);
         const double drag = -factor * record[MOR_RECORD_IMPEDANCE];
+        const double used = limit > 0.0 ? mor_vector_length(tangential) / limit : INFINITY;
         stick = limit_friction(record, limit, -factor, tangential);
         if (!p->coulomb_pulls) {
-            leave_slip(p, normal, stick, slip);
+            leave_slip(p, normal, used, slip);
             resist_sliding(slip, limit, limit / drag, tangential);
         }
         if (continues_freely) {
@@ -407,6 +421,7 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
         p.across = mor_soil_contact_across(soil, p.friction.kind, i);
+        p.is_near = mor_soil_contact_distance(contact, lane) < INFINITY;
         find_contact(contact, soil, lane, i, &p);
         const mirrored parts = find_boundary_acceleration(&p, record, own);
         contact->stick[lane] = parts.along;
@@ -474,8 +489,10 @@ void mor_soil_contact_sum_forces(mor_context *context, mor_soil_contact *contact
 
 /* Velocity that the wall's mirror image has beyond the particle's own, 2 (u - v) where it sticks. */
 static void mirror_motion(mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane, int64_t particle,
-                          mor_wall_friction friction, const mor_contact_rates *rates, double *difference)
+                          const mor_contact_rates *rates, double *difference)
 {
+    const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[lane / MOR_CLUSTER].patch];
+    const mor_wall_friction friction = mor_soil_contact_friction(patch, soil->region, particle).kind;
     const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
     const double *record = soil->records + particle * MOR_RECORD_SIZE;
     const double *velocity = mor_soil_contact_velocity(contact, lane);
@@ -487,9 +504,7 @@ static void mirror_motion(mor_soil_contact *contact, const mor_contact_soil *soi
     const double across = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
     const double stiffness = mor_soil_contact_across(soil, friction, particle);
     if (stiffness > 0.0) {
-        const double speed = -across * sqrt(length2);
-        contact->closure[lane] =
-            mor_soil_contact_find_closure(contact, soil, lane, particle, speed, stiffness, rates->gap);
+        contact->closure[lane] = mor_soil_contact_find_closure(contact, soil, lane, particle, stiffness, rates->gap);
         rates->face_growth[particle] -= 2.0 * contact->closure[lane] * across * length2;
     }
     for (int a = 0; a < 3; ++a) {
@@ -502,15 +517,13 @@ static void add_slot_gradient(mor_soil_contact *contact, const mor_contact_soil 
                               const mor_contact_rates *rates)
 {
     const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
-    const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const int64_t i = first + k;
         const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         const double *record = soil->records + i * MOR_RECORD_SIZE;
         double difference[3];
-        const mor_wall_friction friction = mor_soil_contact_friction(patch, soil->region, i).kind;
-        mirror_motion(contact, soil, lane, i, friction, rates, difference);
+        mirror_motion(contact, soil, lane, i, rates, difference);
         for (int a = 0; a < 9; ++a) {
             rates->velocity_gradient[i * 9 + a] += difference[a / 3] * gradient[a % 3];
         }

@@ -81,7 +81,7 @@ typedef struct mor_contact_leave {
     const double *normal; /* shape [3]; of the face, into the soil, 1 */
     double distance;      /* from the face, m; infinite where it is not known */
     double leaves;        /* motion away from the face in this step, m; negative: towards it */
-    double unloads;       /* motion away that takes the pressure off the face, m; negative: none is left */
+    double unloads;       /* motion away that takes the pressure off the face, m */
 } mor_contact_leave;
 
 /** Finds what of the motion of a particle across a face the face mirrors, (W3b), and takes up the rest as the gap to
@@ -94,7 +94,8 @@ double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after);
  *  gaps. */
 static inline double mor_soil_contact_growth(const mor_contact_soil *soil, int64_t particle)
 {
-    return (soil->growth[2 * particle] + soil->growth[2 * particle + 1]) * soil->length;
+    const double *growth = soil->growth + MOR_CONTACT_GROWTHS * particle;
+    return (growth[MOR_CONTACT_GROWTH_REST] + growth[MOR_CONTACT_GROWTH_FACES]) * soil->length;
 }
 
 /** The normal of a boundary, eq. 33: the kernel gradient over it points into it.
@@ -130,11 +131,10 @@ static inline double mor_soil_contact_held(const mor_contact_soil *soil, int64_t
 /** What of the motion of a particle across a boundary is mirrored, 0 to 1, (W3b).
  *  @param lane     [in]      of the slots
  *  @param particle [in]      index in the set
- *  @param speed    [in]      away from the boundary, unit m/s
  *  @param across   [in]      stiffness over rho c0^2, > 0, unit 1
  *  @param gap      [in,out]  shape [n_particles, 3]; after the step, from the faces before this one, unit m */
 double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
-                                     int64_t particle, double speed, double across, double *gap);
+                                     int64_t particle, double across, double *gap);
 
 /** Friction of a patch with the soil of a particle.
  *  @param region   [in]  shape [n_particles], number of the region each is of, 1; NULL: one region

@@ -126,6 +126,9 @@ static mor_status stop_motion(mor_context *context, mor_simulation *simulation, 
     if (soil->set.data[MOR_FIELD_STRAIN_RATE] != NULL) {
         memset(soil->set.data[MOR_FIELD_STRAIN_RATE], 0, 6 * n * sizeof(double));
     }
+    if (soil->set.data[MOR_FIELD_FACE_GROWTH] != NULL) {
+        memset(soil->set.data[MOR_FIELD_FACE_GROWTH], 0, n * sizeof(double));
+    }
     soil->largest_speed = 0.0;
     for (int g = 0; g < simulation->bodies.n_groups; ++g) {
         for (int b = 0; b < simulation->bodies.groups[g]->n_bodies; ++b) {

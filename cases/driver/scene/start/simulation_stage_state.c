@@ -172,7 +172,8 @@ static void tell_fields(mor_context *context, const mor_taken_soil *taken)
 /* Stops the particles of a region that is not released; what moves it again is computed from its release on. */
 static double stop_region(mor_set *set, int64_t first, int64_t n, double *fastest)
 {
-    static const int motion[] = {MOR_FIELD_VELOCITY, MOR_FIELD_DENSITY_RATE, MOR_FIELD_STRAIN_RATE};
+    static const int motion[] = {MOR_FIELD_VELOCITY, MOR_FIELD_DENSITY_RATE, MOR_FIELD_STRAIN_RATE,
+                                 MOR_FIELD_FACE_GROWTH};
     double energy = 0.0;
     for (int64_t i = first; i < first + n; ++i) {
         const double speed = mor_vector_length(set->data[MOR_FIELD_VELOCITY] + 3 * i);

@@ -167,7 +167,7 @@ static void faces_that_turn_open_no_gap(void **state)
 
 /* Soil as it is seen with the gaps before a step, and what is kept of it. */
 typedef struct kept_soil {
-    double gap[3 * ASSEMBLY_MAX], growth[2 * ASSEMBLY_MAX], mean[6 * ASSEMBLY_MAX];
+    double gap[3 * ASSEMBLY_MAX], growth[MOR_CONTACT_GROWTHS * ASSEMBLY_MAX], mean[6 * ASSEMBLY_MAX];
 } kept_soil;
 
 /* One particle under a pressure over a floor that only presses, Pa; opens f. */
@@ -250,14 +250,129 @@ static void soil_that_keeps_its_volume_keeps_in_touch(void **state)
         soil.length = 10.0; /* s; or the motion is too small for the pressure */
         const double own = press_with(&f, &soil, 0.0);
         const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
-        kept.growth[0] = -2.0 * gradient * speed; /* by the soil beside */
+        kept.growth[MOR_CONTACT_GROWTH_REST] = -2.0 * gradient * speed; /* by the soil beside */
         assert_true(leave(&f, &soil, speed, gap) == 1.0);
         assert_true(gap[dimension - 1] == 0.0);
         assert_true(fabs(press_with(&f, &soil, 0.0) - own) < 0.1 * own);
-        kept.growth[0] = 0.0;
+        kept.growth[MOR_CONTACT_GROWTH_REST] = 0.0;
         assert_true(press_with(&f, &soil, 0.0) < 0.2 * own); /* or the bound on the work tells nothing */
         floor_close(&f);
     }
+}
+
+/* What opens is shared by the faces that are left, or the pressure would be taken off by none: with another face that
+ * the particle leaves as fast each mirrors half. */
+static void faces_that_are_left_together_share_what_opens(void **state)
+{
+    const double pressure = 4e3;
+    (void)state;
+    for (int n_faces = 1; n_faces <= 3; ++n_faces) {
+        floor_case f;
+        kept_soil kept;
+        double gap[3 * ASSEMBLY_MAX] = {0.0};
+        double face_growth[ASSEMBLY_MAX] = {0.0};
+        const mor_contact_soil soil = open_pressed(&f, &kept, 2, pressure);
+        const mor_contact_rates rates = {f.velocity_gradient, f.density_rate, gap, face_growth};
+        floor_record(&f)[MOR_RECORD_VELOCITY + 1] = 10.0;
+        mor_soil_contact_add_growth(&f.soil.context, &f.wall, &soil);
+        kept.growth[MOR_CONTACT_GROWTH_FACES] *= n_faces;
+        kept.growth[MOR_CONTACT_GROWTH_LEFT] *= n_faces;
+        mor_soil_contact_sum_gradient(&f.soil.context, &f.wall, &soil, &rates);
+        const double *record = floor_record(&f);
+        const double stiffness =
+            1.5 * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
+        assert_true(fabs(n_faces * stiffness * face_growth[0] * soil.length / pressure - 1.0) < 1e-9); /* rounding */
+        floor_close(&f);
+    }
+}
+
+/* A face that is left already has no part in the growth, and one that is met again that which closes no gap. */
+static void open_face_takes_no_part_in_the_growth(void **state)
+{
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        floor_case f;
+        kept_soil kept;
+        const mor_contact_soil soil = open_pressed(&f, &kept, dimension, 4e3);
+        double *velocity = floor_record(&f) + MOR_RECORD_VELOCITY + dimension - 1;
+        const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
+        kept.gap[dimension - 1] = 0.002; /* m */
+        *velocity = 10.0;
+        mor_soil_contact_add_growth(&f.soil.context, &f.wall, &soil);
+        assert_true(kept.growth[MOR_CONTACT_GROWTH_FACES] == 0.0 && kept.growth[MOR_CONTACT_GROWTH_LEFT] == 0.0);
+        *velocity = -10.0;
+        mor_soil_contact_add_growth(&f.soil.context, &f.wall, &soil);
+        const double expected = -2.0 * gradient * (10.0 - 0.002 / soil.length);
+        assert_true(fabs(kept.growth[MOR_CONTACT_GROWTH_FACES] - expected) < 1e-9 * gradient); /* rounding */
+        assert_true(kept.growth[MOR_CONTACT_GROWTH_LEFT] == 0.0);
+        floor_close(&f);
+    }
+}
+
+/* Soil that is stretched across a face at a constant volume, until the face bears nothing more, leaves it. */
+static void face_that_bears_nothing_more_opens(void **state)
+{
+    (void)state;
+    floor_case f;
+    kept_soil kept;
+    double gap[3 * ASSEMBLY_MAX] = {0.0};
+    mor_contact_soil soil = open_pressed(&f, &kept, 2, 4e3);
+    kept.mean[1] = -2e3;
+    soil.mean_stress = kept.mean;
+    kept.growth[MOR_CONTACT_GROWTH_REST] = -1e6;
+    floor_set_stress(&f, 1.9e3, 0.0);
+    assert_true(leave(&f, &soil, 0.1, gap) == 1.0);
+    kept.growth[MOR_CONTACT_GROWTH_FACES] = kept.growth[MOR_CONTACT_GROWTH_LEFT] = 0.0;
+    floor_set_stress(&f, 2.1e3, 0.0);
+    assert_true(leave(&f, &soil, 0.1, gap) == 0.0);
+    floor_close(&f);
+}
+
+/* The force of a face that is left within a step: the mean of a pressure p that falls in proportion to the growth to -q
+ * and is none from then on, where that comes within the step; and no more than at its beginning. What comes back to a
+ * face is not bounded. */
+static void face_that_is_left_presses_as_long_as_it_bears(void **state)
+{
+    static const double growths[] = {0.5, 1.0, 1.5, 2.0, 4.0, 100.0}; /* over (p + q) / (2 M) */
+    const double p = 4e3;
+    (void)state;
+    for (int k = 0; k < 6; ++k) {
+        for (int towards = 0; towards < 2; ++towards) {
+            floor_case f;
+            kept_soil kept;
+            const double q = 1e3;
+            mor_contact_soil soil = open_pressed(&f, &kept, 3, p);
+            const double unit = press_with(&f, &soil, 0.0) / p;
+            double *record = floor_record(&f);
+            const double stiffness =
+                1.5 * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
+            kept.mean[MOR_ZZ] = -q;
+            soil.mean_stress = kept.mean;
+            record[MOR_RECORD_VELOCITY + 2] = towards ? -1e-12 : 1e-12; /* m/s; waves of it are rounding */
+            kept.growth[MOR_CONTACT_GROWTH_REST] = growths[k] * (p + q) / (2.0 * stiffness) / soil.length;
+            const double lasts = fmin(2.0 / growths[k], 1.0); /* part of the step */
+            const double mean = growths[k] < 2.0 ? (p + q) / growths[k] - q : lasts * (p - q) / 2.0;
+            const double expected = towards ? p : fmin(mean, p);
+            assert_true(fabs(press_with(&f, &soil, 0.0) / unit - expected) < 1e-6 * p); /* the waves */
+            floor_close(&f);
+        }
+    }
+}
+
+/* The growth of the last step is that of the density, less what faces mirrored. */
+static void growth_of_the_soil_is_that_without_faces(void **state)
+{
+    (void)state;
+    floor_case f;
+    kept_soil kept;
+    const mor_contact_soil soil = open_pressed(&f, &kept, 2, 4e3);
+    const double rate[ASSEMBLY_MAX] = {-0.3 * floor_record(&f)[MOR_RECORD_DENSITY]};
+    const double mirrored[ASSEMBLY_MAX] = {0.1};
+    kept.growth[MOR_CONTACT_GROWTH_FACES] = kept.growth[MOR_CONTACT_GROWTH_LEFT] = 1.0;
+    mor_soil_contact_find_growth(&f.soil.context, &soil, rate, mirrored);
+    assert_true(fabs(kept.growth[MOR_CONTACT_GROWTH_REST] - 0.2) < 1e-15);
+    assert_true(kept.growth[MOR_CONTACT_GROWTH_FACES] == 0.0 && kept.growth[MOR_CONTACT_GROWTH_LEFT] == 0.0);
+    floor_close(&f);
 }
 
 /* A face bears as tension for a moment what it has borne as pressure, and no more. */
@@ -317,6 +432,11 @@ int main(void)
         cmocka_unit_test(mirrored_motion_takes_off_the_pressure),
         cmocka_unit_test(soil_that_keeps_its_volume_keeps_in_touch),
         cmocka_unit_test(face_holds_as_much_as_it_has_borne),
+        cmocka_unit_test(faces_that_are_left_together_share_what_opens),
+        cmocka_unit_test(open_face_takes_no_part_in_the_growth),
+        cmocka_unit_test(face_that_bears_nothing_more_opens),
+        cmocka_unit_test(face_that_is_left_presses_as_long_as_it_bears),
+        cmocka_unit_test(growth_of_the_soil_is_that_without_faces),
         cmocka_unit_test(continued_stress_is_bounded_by_the_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
