@@ -142,7 +142,7 @@ static mor_status stretch(trial *it, const mor_material_instance *law, int n_ste
 #define SOFT 0.2
 
 /* Soil of any cohesion of interest yields when it is stretched by a thousandth, and keeps what it bears: clay of 10 Pa
- * and 3 GPa two millionths of what elastic soil would have. It takes a second, and another in which fluids flow. */
+ * and 3 GPa two millionths of what elastic soil would have. It takes a second, and another for fluids to flow. */
 mor_status mor_material_find_tension(const mor_material_instance *law, int part, double density, double *across)
 {
     enum { STEPS = 20 };

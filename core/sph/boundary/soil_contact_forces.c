@@ -18,8 +18,8 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Motion along a boundary up to this many times what the soil's rate of shear explains is shear, 1. */
 #define SHEARS 20.0
 
-/* Kernel gradient over a boundary times the spacing from which on a particle is of the first layer, and by WIDTH less it
- * is behind it, 1: at a plane it is 0.44 half a spacing away, 0.21 at a spacing and 0.06 at one and a half. */
+/* Kernel gradient over a boundary times the spacing from which on a particle is of the first layer, and by WIDTH less
+ * it is behind it, 1: at a plane it is 0.44 half a spacing away, 0.21 at a spacing and 0.06 at one and a half. */
 #define FIRST 0.2
 #define WIDTH 0.1
 
