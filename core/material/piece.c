@@ -138,7 +138,7 @@ static mor_status stretch(trial *it, const mor_material_instance *law, int n_ste
     return status;
 }
 
-/* Soil whose stiffness without stress is below this part of rho c^2 owes it to its pressure, and bears no tension, 1. */
+/* Soil whose stiffness without stress is below this part of rho c^2 has it from its pressure, and bears no tension. */
 #define SOFT 0.2
 
 /* Soil of any cohesion of interest yields when it is stretched by a thousandth, and keeps what it bears: clay of 10 Pa
