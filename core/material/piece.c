@@ -170,9 +170,9 @@ mor_status mor_material_find_tension(const mor_material_instance *law, int part,
         status = stretch(&pressed, law, 1, -small, 1.0e-8);
     }
     const double stiffness = density * speed * speed;
-    const double found = -pressed.stress[0] / (small * stiffness);
-    if (status == MOR_OK && stretched.stress[0] > least * strain * stiffness && found > SOFT) {
-        *across = found;
+    if (status == MOR_OK && stretched.stress[0] > least * strain * stiffness) {
+        const double found = -pressed.stress[0] / (small * stiffness);
+        *across = found > SOFT ? found : 0.0;
     }
     return status;
 }

@@ -12,10 +12,23 @@
 /* LEAST: a gap up to this part of the depth of the first layer is rounding. NEAREST: what is nearer to a face than
  * this part of that depth touches it whatever its gap, so that soil does not pass through a face that counts as left.
  * SLANT: a gap counts for faces whose normal has more than this part of its direction, so that what was left along a
- * face opens none while that face turns. */
+ * face opens none while that face turns. FARTHEST: no gap is wider than this many such depths, three spacings, behind
+ * which soil of the usual smoothing length sees no face. */
 #define LEAST 1.0e-9
 #define NEAREST 0.5
 #define SLANT 0.01
+#define FARTHEST 6.0
+
+/* Faces that stand at any angles are put together one after the other, by which a gap between three or more of them can
+ * grow without any motion. */
+static void keep_gap(const double *gap, double longest, double *kept)
+{
+    const double length = mor_vector_length(gap);
+    const double part = length > longest ? longest / length : 1.0;
+    for (int a = 0; a < 3; ++a) {
+        kept[a] = part * gap[a];
+    }
+}
 
 void mor_soil_contact_begin_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
                                  const mor_contact_rates *rates, double *before)
@@ -24,7 +37,9 @@ void mor_soil_contact_begin_gaps(mor_context *context, const mor_contact_soil *s
     MOR_PARALLEL_FOR (context, cluster, rates->gap != NULL ? n_clusters : 0, MOR_CONTACT_GRAIN) {
         const int64_t first = cluster * MOR_CLUSTER;
         const int64_t n = soil->n_particles - first < MOR_CLUSTER ? soil->n_particles - first : MOR_CLUSTER;
-        memcpy(before + 3 * first, rates->gap + 3 * first, (size_t)(3 * n) * sizeof(double));
+        for (int64_t i = first; i < first + n; ++i) {
+            keep_gap(rates->gap + 3 * i, FARTHEST * soil->depth, before + 3 * i);
+        }
         if (!mor_sleep_is(sleep, cluster, MOR_SLEEP_ASLEEP)) {
             memset(rates->gap + 3 * first, 0, (size_t)(3 * n) * sizeof(double));
         }

@@ -359,6 +359,26 @@ static void face_that_is_left_presses_as_long_as_it_bears(void **state)
     }
 }
 
+/* A gap that is wider than any face is seen from is cut to that, along itself, and one that is not stays as it was. */
+static void gap_is_no_wider_than_faces_are_seen_from(void **state)
+{
+    double gap[3 * ASSEMBLY_MAX] = {0.3, -1.2, 0.4, 3e50, 0.0, -4e50};
+    double before[3 * ASSEMBLY_MAX] = {0.0};
+    double face_growth[ASSEMBLY_MAX] = {0.0};
+    floor_case f;
+    kept_soil kept;
+    (void)state;
+    mor_contact_soil soil = open_pressed(&f, &kept, 3, 4e3);
+    const mor_contact_rates rates = {.gap = gap, .face_growth = face_growth};
+    soil.n_particles = 2;
+    mor_soil_contact_begin_gaps(&f.soil.context, &soil, NULL, &rates, before);
+    assert_true(before[0] == 0.3 && before[1] == -1.2 && before[2] == 0.4);
+    assert_true(fabs(before[3] - 0.6 * 6.0 * DEPTH) < 1e-12 && before[4] == 0.0); /* rounding */
+    assert_true(fabs(before[5] + 0.8 * 6.0 * DEPTH) < 1e-12);
+    assert_true(gap[3] == 0.0 && gap[5] == 0.0);
+    floor_close(&f);
+}
+
 /* The growth of the last step is that of the density, less what faces mirrored. */
 static void growth_of_the_soil_is_that_without_faces(void **state)
 {
@@ -437,6 +457,7 @@ int main(void)
         cmocka_unit_test(face_that_bears_nothing_more_opens),
         cmocka_unit_test(face_that_is_left_presses_as_long_as_it_bears),
         cmocka_unit_test(growth_of_the_soil_is_that_without_faces),
+        cmocka_unit_test(gap_is_no_wider_than_faces_are_seen_from),
         cmocka_unit_test(continued_stress_is_bounded_by_the_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
