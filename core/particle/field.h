@@ -14,7 +14,8 @@ enum {
     MOR_FIELD_EVOLVES = 1, /* state: permuted by the sort, saved in checkpoints, part of the checksum */
     MOR_FIELD_OUTPUT = 2,  /* written to snapshots */
     MOR_FIELD_SCRATCH = 4, /* recomputed in each step before it is read */
-    MOR_FIELD_STATE = 8    /* state variable of the material */
+    MOR_FIELD_STATE = 8,   /* state variable of the material */
+    MOR_FIELD_MOTION = 16  /* zero where particles stand */
 };
 
 /** Built-in fields, in the order of fields_core.def. */
@@ -32,7 +33,7 @@ typedef struct mor_field_info {
     char name[MOR_FIELD_NAME_BYTES]; /* unique in a set */
     int n_components;                /* numbers per particle, 1 to 9 */
     const char *unit;                /* SI unit, "1" for dimensionless */
-    unsigned flags;                  /* MOR_FIELD_EVOLVES, _OUTPUT, _SCRATCH, _STATE */
+    unsigned flags;                  /* MOR_FIELD_EVOLVES, _OUTPUT, _SCRATCH, _STATE, _MOTION */
     const char *text;                /* one line for people */
 } mor_field_info;
 

@@ -161,6 +161,16 @@ void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed)
     set->generation += 1;
 }
 
+void mor_set_stop(mor_set *set, int64_t first, int64_t n)
+{
+    for (int field = 0; field < set->n_fields; ++field) {
+        const int64_t width = set->fields[field].n_components;
+        if (set->data[field] != NULL && (set->fields[field].flags & MOR_FIELD_MOTION) != 0) {
+            memset(set->data[field] + width * first, 0, (size_t)(width * n) * sizeof(double));
+        }
+    }
+}
+
 uint64_t mor_set_checksum(const mor_set *set)
 {
     /* Each number is mixed with its id, field and place and the results are added: wrapping addition does not depend on

@@ -68,6 +68,11 @@ void mor_set_permute(mor_set *set, int32_t *order);
  *  Gives: generation + 1. Cost: O(n), allocates nothing. */
 void mor_set_remove(mor_set *set, const int32_t *removed, int64_t n_removed);
 
+/** Stops particles where they are: sets to zero all fields of their motion.
+ *  @param first [in]  index of the first one
+ *  @param n     [in]  number of particles, >= 0 */
+void mor_set_stop(mor_set *set, int64_t first, int64_t n);
+
 /** Returns a 64-bit hash of all evolving fields, bit patterns in particle-id order.
  *  Returns: the same value for the same state in any particle order and for any number of threads. */
 uint64_t mor_set_checksum(const mor_set *set);

@@ -69,13 +69,14 @@ static bool has_audit(const void *owner)
     return ((const mor_soil *)owner)->energy != NULL;
 }
 
+#define GAPS (BIT(GAP) | BIT(GAP_FACE) | BIT(FACE_GROWTH))
 #define CALM (BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_STRESS) | BIT(QUIET_SPAN))
 
 /* What soil that is not released keeps, beside its state. */
 #define STANDING                                                                                                       \
     (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
      BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |      \
-     BIT(GAP) | BIT(FACE_GROWTH) | CALM)
+     GAPS | CALM)
 
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,
@@ -112,7 +113,7 @@ static const mor_stage soil_stages[] = {
      "impulse given to soil that sleeps, when switched on", mor_soil_may_sleep},
     {"boundary forces", mor_soil_sum_boundary_forces,
      SHARED(RECORDS) | SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(STRAIN_RATE) |
-         BIT(GAP) | BIT(DENSITY_RATE) | BIT(FACE_GROWTH) | BIT(MEAN_STRESS),
+         GAPS | BIT(DENSITY_RATE) | BIT(MEAN_STRESS),
      SHARED(WALL_FORCES) | BIT(GROWTH), BIT(ACCELERATION), "acceleration by walls and rocks, and the forces on them",
      NULL},
     {"kick", mor_soil_kick, SHARED(LISTS), 0,
@@ -122,8 +123,8 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE) | SHARED(MOMENTS), 0,
      "velocity gradient and density rate by the neighbors", NULL},
     {"boundary gradient", mor_soil_sum_boundary_gradient,
-     SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(MEAN_STRESS), BIT(GAP_BEFORE),
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(GAP) | BIT(FACE_GROWTH) | BIT(GROWTH) | SHARED(WALL_SUMS),
+     SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(MEAN_STRESS), 0,
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | GAPS | BIT(GROWTH) | SHARED(WALL_SUMS),
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | BIT(MASS) | BIT(VELOCITY) |
@@ -337,7 +338,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
                   ? ~(uint64_t)0
                   : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= settings->scheme.separation_memory ? ~(uint64_t)0 : ~BIT(SEPARATION);
-    fields &= soil->keeps_gaps ? ~(uint64_t)0 : ~(BIT(GAP) | BIT(GAP_BEFORE) | BIT(FACE_GROWTH) | BIT(GROWTH));
+    fields &= soil->keeps_gaps ? ~(uint64_t)0 : ~(GAPS | BIT(GROWTH));
     fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~CALM;
     fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
                                                                                                : ~BIT(CROSSINGS);
@@ -413,6 +414,7 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
               MOR_SOIL_WALLS_MAX);
     MOR_TRY(context,
             mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
+    soil->walls[soil->n_walls].number = soil->n_walls;
     soil->n_walls += 1;
     return soil->walls[soil->n_walls - 1].normals != NULL ? make_corners(context, soil) : MOR_OK;
 }
@@ -434,6 +436,7 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
               MOR_SOIL_BOUNDARIES_MAX);
     MOR_TRY(context, mor_soil_contact_borrow(context, &soil->boundaries[soil->n_boundaries], boundary, stress,
                                              soil->settings.dimension, soil->tree.n_clusters));
+    soil->boundaries[soil->n_boundaries].number = MOR_SOIL_WALLS_MAX + soil->n_boundaries;
     soil->n_boundaries += 1;
     mor_soil_forget_lists(soil);
     if (soil->sleep.states != NULL) {

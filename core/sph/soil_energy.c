@@ -1,7 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The audit of the soil's energy: set-up, integrals, and the part of the stress update. The part of the forces is in
- * soil_energy_forces.c. */
+/* The audit of the soil's energy: set-up, integrals, and the part of the stress update. */
 #include "core/sph/soil_energy.h"
 
 #include "core/base/math.h"

@@ -1,7 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Energy that forces other than the stress take from the motion of the soil: Riemann terms, walls and rocks,
- * damping. */
+/* Energy that Riemann terms, walls, rocks and damping take from the motion of the soil. */
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 #include "core/sph/boundary/soil_contact_internal.h"

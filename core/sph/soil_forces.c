@@ -196,6 +196,7 @@ static mor_contact_soil see_soil(const mor_soil *soil, mor_view *view, const mor
                               .records = records,
                               .depth = 0.5 * soil->settings.spacing,
                               .gap = mor_view_read(view, MOR_FIELD_GAP),
+                              .gap_face = mor_view_read(view, MOR_FIELD_GAP_FACE),
                               .growth = mor_view_write(view, MOR_FIELD_GROWTH),
                               .mean_stress = mor_view_read(view, MOR_FIELD_MEAN_STRESS),
                               .across = soil->across,
@@ -255,12 +256,11 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     const mor_contact_rates rates = {.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
                                      .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
                                      .gap = mor_view_write(view, MOR_FIELD_GAP),
+                                     .gap_face = mor_view_write(view, MOR_FIELD_GAP_FACE),
                                      .face_growth = mor_view_write(view, MOR_FIELD_FACE_GROWTH)};
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
-    double *before = mor_view_write(view, MOR_FIELD_GAP_BEFORE);
-    seen.gap = before;
-    mor_soil_contact_begin_gaps(context, &seen, soil->sleep.states, &rates, before);
+    mor_soil_contact_begin_growth(context, &seen, &rates);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_view_write_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
         /* Rocks have moved on since the boundary forces were summed, but their points in the records have not; the
@@ -271,6 +271,7 @@ mor_status mor_soil_sum_boundary_gradient(mor_context *context, void *owner, mor
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact_sum_gradient(context, mor_soil_contact_at(soil, k), &seen, &rates);
     }
+    mor_soil_contact_end_gaps(context, &seen, soil->sleep.states, &rates);
     mor_hold_stop(&soil->hold, rates.velocity_gradient, 9);
     mor_hold_stop(&soil->hold, rates.density_rate, 1);
     return MOR_OK;

@@ -97,8 +97,7 @@ static mor_status build_boundary_lists(mor_context *context, mor_soil *soil, mor
     return MOR_OK;
 }
 
-/* Motion since lists were built, smoothing lengths, beyond which listed particles may be too far apart for places in
- * single precision. */
+/* Motion since lists were built, smoothing lengths, beyond which places in single precision may be too far apart. */
 #define FARTHEST 64.0
 
 /* Whether no two particles that are not listed have come within the support. Behind periodic faces, where particles are

@@ -45,11 +45,11 @@ mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_p
 
 /* What a particle that is not released keeps, beside its state. */
 static const int standing[] = {
-    MOR_FIELD_POSITION,     MOR_FIELD_VELOCITY,         MOR_FIELD_DENSITY,     MOR_FIELD_DENSITY_RATE,
-    MOR_FIELD_STRESS,       MOR_FIELD_STRAIN_RATE,      MOR_FIELD_MEAN_STRESS, MOR_FIELD_FLOW,
-    MOR_FIELD_HOURGLASS,    MOR_FIELD_HOURGLASS_MOMENT, MOR_FIELD_SPIN_STRESS, MOR_FIELD_SEPARATION,
-    MOR_FIELD_GAP,          MOR_FIELD_FACE_GROWTH,      MOR_FIELD_QUIET,       MOR_FIELD_QUIET_PLACE,
-    MOR_FIELD_QUIET_STRESS, MOR_FIELD_QUIET_SPAN};
+    MOR_FIELD_POSITION,    MOR_FIELD_VELOCITY,         MOR_FIELD_DENSITY,     MOR_FIELD_DENSITY_RATE,
+    MOR_FIELD_STRESS,      MOR_FIELD_STRAIN_RATE,      MOR_FIELD_MEAN_STRESS, MOR_FIELD_FLOW,
+    MOR_FIELD_HOURGLASS,   MOR_FIELD_HOURGLASS_MOMENT, MOR_FIELD_SPIN_STRESS, MOR_FIELD_SEPARATION,
+    MOR_FIELD_GAP,         MOR_FIELD_GAP_FACE,         MOR_FIELD_FACE_GROWTH, MOR_FIELD_QUIET,
+    MOR_FIELD_QUIET_PLACE, MOR_FIELD_QUIET_STRESS,     MOR_FIELD_QUIET_SPAN};
 enum { STANDING = sizeof standing / sizeof *standing };
 
 /* Its arrays: those of the fields, as a view gives them, then those of the state. */

@@ -86,6 +86,8 @@ enum {
     MOR_CONTACT_GROWTHS
 };
 
+enum { MOR_CONTACT_GAPS = 4 /* that a particle keeps */ };
+
 /** The soil as the boundary forces see it. Everything is borrowed. */
 typedef struct mor_contact_soil {
     mor_dissipation dissipation; /* on which sign of the closing speed the limiter acts */
@@ -96,8 +98,10 @@ typedef struct mor_contact_soil {
     const double *records;       /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
     const double *strain_rate;   /* shape [n_particles, 6], of the last step, 1/s; NULL: none is kept */
     double depth;                /* of a particle of the first layer under the face of the soil, m */
-    const double *gap;           /* shape [n_particles, 3]; by how much each has left the faces around it that only
-                                  * press, before the step, (W3b) of docs/theory/walls.md, m; NULL: none is kept */
+    const double *gap;           /* shape [n_particles, MOR_CONTACT_GAPS]; by how much each has left faces around it
+                                  * that only press, before the step, (W3b) of docs/theory/walls.md, m; NULL: none is
+                                  * kept */
+    const double *gap_face;      /* shape [n_particles, MOR_CONTACT_GAPS]; their numbers, 1; 0: none; with gap */
     double *growth;              /* shape [n_particles, MOR_CONTACT_GROWTHS]; with gap, units of the enum */
     const double *mean_stress;   /* shape [n_particles, 6]; recent mean of the stress, Pa; NULL: none is kept */
     const double *across;        /* shape [soils]; with gap, stiffness across a face over rho c0^2, 1; 0: no gaps */
@@ -118,6 +122,7 @@ typedef struct mor_contact_corner {
 /** One boundary and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
+    int number; /* from 0; its own among the boundaries of the soil, 1 */
     int64_t n_points;
     mor_boundary *boundary;         /* a wall's own, otherwise borrowed */
     bool is_wall;                   /* a single patch that moves as prescribed below; owns its boundary */
@@ -387,18 +392,22 @@ void mor_soil_contact_share_forces(mor_context *context, mor_soil_contact *conta
 typedef struct mor_contact_rates {
     double *velocity_gradient; /* shape [n_particles, 9], 1/s; added to */
     double *density_rate;      /* shape [n_particles], kg/m3/s; added to */
-    double *gap;               /* shape [n_particles, 3], m; that of the soil after the step; NULL: none is kept */
+    double *gap, *gap_face;    /* shape [n_particles, MOR_CONTACT_GAPS], m, 1; those of the soil, brought to the end of
+                                * the step; NULL: none are kept */
     double *face_growth;       /* shape [n_particles], 1/s; with gap, rate of volume by what is mirrored; added to */
 } mor_contact_rates;
 
-/** Begins what boundaries change of gaps in a step: keeps those before it, and leaves those after it to the faces that
- *  are seen in it: soil that sees none has no gap. Soil that sleeps keeps its own.
- *  @param soil   [in,out]  growth by faces becomes zero
- *  @param sleep  [in]      shape [clusters]; states of sleep; NULL: all is awake
- *  @param rates  [in,out]  gap and face_growth become zero; without a gap nothing is done
- *  @param before [out]     shape [n_particles, 3]; what the gap was, m; NULL without */
-void mor_soil_contact_begin_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
-                                 const mor_contact_rates *rates, double *before);
+/** Begins what faces add to the growth of the soil in a step.
+ *  @param soil  [in,out]  growth by faces becomes zero; without it nothing is done
+ *  @param rates [in,out]  face_growth becomes zero */
+void mor_soil_contact_begin_growth(mor_context *context, const mor_contact_soil *soil, const mor_contact_rates *rates);
+
+/** Ends what boundaries change of gaps in a step, after all have set theirs: forgets those to faces that were not seen
+ *  in it. Soil that sleeps keeps its own.
+ *  @param sleep [in]      shape [clusters]; states of sleep; NULL: all is awake
+ *  @param rates [in,out]  without a gap nothing is done */
+void mor_soil_contact_end_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
+                               const mor_contact_rates *rates);
 
 /** Finds at what rate the volume of particles grew in the last step but for what faces mirrored that only press.
  *  @param soil         [in,out]  growth is written

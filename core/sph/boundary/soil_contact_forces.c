@@ -378,8 +378,7 @@ static void find_contact(const mor_soil_contact *contact, const mor_contact_soil
     p->gap = p->growth = p->held = 0.0;
     if (p->across > 0.0 && mor_vector_length(p->gradient) > 0.0) {
         mor_soil_contact_normal(p->gradient, normal);
-        p->gap = mor_soil_contact_gap(soil->gap + 3 * particle, soil->depth, normal,
-                                      mor_soil_contact_distance(contact, lane));
+        p->gap = mor_soil_contact_find_gap(contact, soil, lane, particle);
         p->growth = mor_soil_contact_growth(soil, particle);
         p->held = mor_soil_contact_held(soil, particle, normal);
     }
@@ -504,7 +503,7 @@ static void mirror_motion(mor_soil_contact *contact, const mor_contact_soil *soi
     const double across = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
     const double stiffness = mor_soil_contact_across(soil, friction, particle);
     if (stiffness > 0.0) {
-        contact->closure[lane] = mor_soil_contact_find_closure(contact, soil, lane, particle, stiffness, rates->gap);
+        contact->closure[lane] = mor_soil_contact_find_closure(contact, soil, lane, particle, stiffness, rates);
         rates->face_growth[particle] -= 2.0 * contact->closure[lane] * across * length2;
     }
     for (int a = 0; a < 3; ++a) {

@@ -1,52 +1,63 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Gaps between soil that bears tension and faces that only press, (W3b) of docs/theory/walls.md. A gap is a vector:
- * along the normal of a face it tells how far the particle has left that one. */
+/* Gaps between soil that bears tension and faces that only press, (W3b) of docs/theory/walls.md: of each particle up to
+ * four, each with the number of its face. */
 #include "core/sph/boundary/soil_contact_internal.h"
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
 
+#include <math.h>
 #include <string.h>
 
 /* LEAST: a gap up to this part of the depth of the first layer is rounding. NEAREST: what is nearer to a face than
- * this part of that depth touches it whatever its gap, so that soil does not pass through a face that counts as left.
- * SLANT: a gap counts for faces whose normal has more than this part of its direction, so that what was left along a
- * face opens none while that face turns. FARTHEST: no gap is wider than this many such depths, three spacings, behind
- * which soil of the usual smoothing length sees no face. */
+ * this part of that depth touches it whatever its gap, so that soil does not pass through a face that counts as
+ * left. */
 #define LEAST 1.0e-9
 #define NEAREST 0.5
-#define SLANT 0.01
-#define FARTHEST 6.0
 
-/* Faces that stand at any angles are put together one after the other, by which a gap between three or more of them can
- * grow without any motion. */
-static void keep_gap(const double *gap, double longest, double *kept)
+enum { FREE = 0, GAPS = MOR_CONTACT_GAPS };
+
+/* Returns which of the gaps of a particle is to a face, GAPS if none. A face that has been seen in the step has the
+ * negative of its number there. */
+static int find_place(const double *faces, double face)
 {
-    const double length = mor_vector_length(gap);
-    const double part = length > longest ? longest / length : 1.0;
-    for (int a = 0; a < 3; ++a) {
-        kept[a] = part * gap[a];
+    int k = 0;
+    while (k < GAPS && fabs(faces[k]) != face) {
+        ++k;
+    }
+    return k;
+}
+
+/* Of a particle that has left more faces than are kept, those that come last count as touched. */
+static void keep_gap(double gap, double face, double *gaps, double *faces)
+{
+    const int own = find_place(faces, face);
+    const int k = own < GAPS || gap == 0.0 ? own : find_place(faces, FREE);
+    if (k < GAPS) {
+        gaps[k] = gap;
+        faces[k] = gap > 0.0 ? -face : FREE;
     }
 }
 
-void mor_soil_contact_begin_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
-                                 const mor_contact_rates *rates, double *before)
+void mor_soil_contact_begin_growth(mor_context *context, const mor_contact_soil *soil, const mor_contact_rates *rates)
 {
-    const int64_t n_clusters = (soil->n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER;
-    MOR_PARALLEL_FOR (context, cluster, rates->gap != NULL ? n_clusters : 0, MOR_CONTACT_GRAIN) {
-        const int64_t first = cluster * MOR_CLUSTER;
-        const int64_t n = soil->n_particles - first < MOR_CLUSTER ? soil->n_particles - first : MOR_CLUSTER;
-        for (int64_t i = first; i < first + n; ++i) {
-            keep_gap(rates->gap + 3 * i, FARTHEST * soil->depth, before + 3 * i);
-        }
-        if (!mor_sleep_is(sleep, cluster, MOR_SLEEP_ASLEEP)) {
-            memset(rates->gap + 3 * first, 0, (size_t)(3 * n) * sizeof(double));
-        }
-        memset(rates->face_growth + first, 0, (size_t)n * sizeof(double));
-        for (int64_t i = first; i < first + n; ++i) {
-            double *growth = soil->growth + MOR_CONTACT_GROWTHS * i;
-            growth[MOR_CONTACT_GROWTH_FACES] = growth[MOR_CONTACT_GROWTH_LEFT] = 0.0;
+    MOR_PARALLEL_FOR (context, i, soil->growth != NULL ? soil->n_particles : 0, MOR_BLOCK) {
+        double *growth = soil->growth + MOR_CONTACT_GROWTHS * i;
+        rates->face_growth[i] = growth[MOR_CONTACT_GROWTH_FACES] = growth[MOR_CONTACT_GROWTH_LEFT] = 0.0;
+    }
+}
+
+void mor_soil_contact_end_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,
+                               const mor_contact_rates *rates)
+{
+    MOR_PARALLEL_FOR (context, i, rates->gap != NULL ? soil->n_particles : 0, MOR_BLOCK) {
+        double *gaps = rates->gap + GAPS * i;
+        double *faces = rates->gap_face + GAPS * i;
+        for (int k = 0; k < GAPS && !mor_sleep_is(sleep, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP); ++k) {
+            const bool is_seen = faces[k] < 0.0;
+            gaps[k] = is_seen ? gaps[k] : 0.0;
+            faces[k] = is_seen ? -faces[k] : FREE;
         }
     }
 }
@@ -86,8 +97,7 @@ static bool view_face(const mor_soil_contact *contact, const mor_contact_soil *s
         relative[a] = soil->records[i * MOR_RECORD_SIZE + MOR_RECORD_VELOCITY + a] - velocity[a];
     }
     face->leaves = mor_vector_dot(relative, face->normal) * soil->length;
-    face->open =
-        mor_soil_contact_gap(soil->gap + 3 * i, soil->depth, face->normal, mor_soil_contact_distance(contact, lane));
+    face->open = mor_soil_contact_find_gap(contact, soil, lane, i);
     return true;
 }
 
@@ -119,30 +129,23 @@ void mor_soil_contact_add_growth(mor_context *context, const mor_soil_contact *c
     }
 }
 
-double mor_soil_contact_gap(const double *gap, double depth, const double *normal, double distance)
+double mor_soil_contact_gap(const double *gaps, const double *faces, double face, double depth, double distance)
 {
-    const double along = mor_vector_dot(gap, normal);
-    const double open = mor_min(along, distance - NEAREST * depth);
-    return open > LEAST * depth && along > SLANT * mor_vector_length(gap) ? open : 0.0;
+    const int k = find_place(faces, face);
+    const double open = mor_min(k < GAPS ? gaps[k] : 0.0, distance - NEAREST * depth);
+    return open > LEAST * depth ? open : 0.0;
 }
 
-double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after)
+double mor_soil_contact_leave_face(const mor_contact_leave *it, double *gaps, double *faces)
 {
-    const double open = mor_soil_contact_gap(it->gap, it->depth, it->normal, it->distance);
+    const double open = mor_soil_contact_gap(gaps, faces, it->face, it->depth, it->distance);
     double follows = 0.0; /* of the motion, what goes with the face, m */
     if (it->leaves > 0.0) {
         follows = open > 0.0 ? 0.0 : mor_min(it->leaves, it->unloads);
     } else {
         follows = mor_min(it->leaves + open, 0.0);
     }
-    /* A particle that has left another face on the other side first comes back to that one. */
-    const double along = mor_vector_dot(it->gap, it->normal);
-    const bool is_behind = along < -SLANT * mor_vector_length(it->gap) && along < -LEAST * it->depth;
-    const double left = is_behind ? 0.0 : mor_max(open + it->leaves - follows, 0.0);
-    const double sum = mor_vector_dot(after, it->normal);
-    for (int a = 0; a < 3 && (left > 0.0 || sum > 0.0); ++a) {
-        after[a] += (left - sum) * it->normal[a];
-    }
+    keep_gap(mor_max(open + it->leaves - follows, 0.0), it->face, gaps, faces);
     return it->leaves != 0.0 ? follows / it->leaves : open > 0.0 ? 0.0 : 1.0;
 }
 
@@ -150,7 +153,7 @@ double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after)
  * the volume would grow beyond that opens the gaps to all faces that are left, each by its part. A face that bears
  * nothing more opens whatever the volume does. */
 double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
-                                     int64_t particle, double across, double *gap)
+                                     int64_t particle, double across, const mor_contact_rates *rates)
 {
     const double *record = soil->records + particle * MOR_RECORD_SIZE;
     const double *growth = soil->growth + MOR_CONTACT_GROWTHS * particle;
@@ -166,11 +169,10 @@ double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_
     const double beyond = mor_max(mor_soil_contact_growth(soil, particle) - bears / modulus, 0.0);
     const double left = growth[MOR_CONTACT_GROWTH_LEFT] * soil->length;
     const double part = bears > 0.0 && left > 0.0 ? 1.0 - mor_min(beyond / left, 1.0) : 0.0;
-    const mor_contact_leave leave = {.gap = soil->gap + 3 * particle,
+    const mor_contact_leave leave = {.face = mor_soil_contact_face(contact, lane),
                                      .depth = soil->depth,
-                                     .normal = face.normal,
                                      .distance = mor_soil_contact_distance(contact, lane),
                                      .leaves = face.leaves,
                                      .unloads = face.leaves * part};
-    return mor_soil_contact_leave_face(&leave, gap + 3 * particle);
+    return mor_soil_contact_leave_face(&leave, rates->gap + GAPS * particle, rates->gap_face + GAPS * particle);
 }

@@ -67,28 +67,37 @@ static inline double mor_soil_contact_across(const mor_contact_soil *soil, mor_w
                                        : 0];
 }
 
+/** Number of the patch of a slot among those of all boundaries, 1 or more, the same as long as these are; unit 1.
+ *  @param lane [in]  of the slots */
+static inline double mor_soil_contact_face(const mor_soil_contact *contact, int64_t lane)
+{
+    return 4294967296.0 * contact->number + contact->slots[lane / MOR_CLUSTER].patch + 1.0;
+}
+
 /** How far a particle stands off a face, m; 0: it touches. Never further than the face is away from the first layer.
- *  @param gap      [in]  shape [3]; of the particle, before the step, unit m
+ *  @param gaps     [in]  shape [MOR_CONTACT_GAPS]; of the particle, before the step, unit m
+ *  @param faces    [in]  shape [MOR_CONTACT_GAPS]; numbers of their faces, unit 1
+ *  @param face     [in]  number of the face, > 0, unit 1
  *  @param depth    [in]  of the first layer, unit m
- *  @param normal   [in]  shape [3]; of the face, into the soil, unit 1
  *  @param distance [in]  from the face, unit m; infinite where it is not known */
-double mor_soil_contact_gap(const double *gap, double depth, const double *normal, double distance);
+double mor_soil_contact_gap(const double *gaps, const double *faces, double face, double depth, double distance);
 
 /** What of the motion of a particle across a face goes with the face. */
 typedef struct mor_contact_leave {
-    const double *gap;    /* shape [3]; of the particle before the step, m */
-    double depth;         /* of the first layer, m */
-    const double *normal; /* shape [3]; of the face, into the soil, 1 */
-    double distance;      /* from the face, m; infinite where it is not known */
-    double leaves;        /* motion away from the face in this step, m; negative: towards it */
-    double unloads;       /* motion away that takes the pressure off the face, m */
+    double face;     /* its number, > 0, 1 */
+    double depth;    /* of the first layer, m */
+    double distance; /* from the face, m; infinite where it is not known */
+    double leaves;   /* motion away from the face in this step, m; negative: towards it */
+    double unloads;  /* motion away that takes the pressure off the face, m */
 } mor_contact_leave;
 
 /** Finds what of the motion of a particle across a face the face mirrors, (W3b), and takes up the rest as the gap to
  *  it: away from it what goes on without pressure, less what closes the gap towards it.
- *  @param after [in,out]  shape [3]; gap of the particle after the step, from the faces before this one, unit m
+ *  @param gaps  [in,out]  shape [MOR_CONTACT_GAPS]; of the particle; that to this face is brought to the end of the
+ *                         step, unit m
+ *  @param faces [in,out]  shape [MOR_CONTACT_GAPS]; numbers of their faces; this one is marked as seen, unit 1
  *  Returns: the part of the motion that is mirrored, 0 to 1. */
-double mor_soil_contact_leave_face(const mor_contact_leave *it, double *after);
+double mor_soil_contact_leave_face(const mor_contact_leave *it, double *gaps, double *faces);
 
 /** By how much a particle grows in the step if faces that only press mirror all of its motion, 1; for soil with
  *  gaps. */
@@ -116,6 +125,18 @@ static inline double mor_soil_contact_distance(const mor_soil_contact *contact, 
     return contact->seen_faces != NULL ? contact->seen_faces[MOR_FACE_SUMS * lane + MOR_FACE_DISTANCE] : INFINITY;
 }
 
+/** How far a particle stands off the patch of a slot, m; 0: it touches.
+ *  @param soil     [in]  with gaps
+ *  @param lane     [in]  of the slots
+ *  @param particle [in]  index in the set */
+static inline double mor_soil_contact_find_gap(const mor_soil_contact *contact, const mor_contact_soil *soil,
+                                               int64_t lane, int64_t particle)
+{
+    return mor_soil_contact_gap(soil->gap + MOR_CONTACT_GAPS * particle, soil->gap_face + MOR_CONTACT_GAPS * particle,
+                                mor_soil_contact_face(contact, lane), soil->depth,
+                                mor_soil_contact_distance(contact, lane));
+}
+
 /** Recent mean of the pressure of a particle on a face, which the face bears as tension for a moment, Pa, >= 0.
  *  @param normal [in]  shape [3]; of the face, unit 1 */
 static inline double mor_soil_contact_held(const mor_contact_soil *soil, int64_t particle, const double *normal)
@@ -132,9 +153,9 @@ static inline double mor_soil_contact_held(const mor_contact_soil *soil, int64_t
  *  @param lane     [in]      of the slots
  *  @param particle [in]      index in the set
  *  @param across   [in]      stiffness over rho c0^2, > 0, unit 1
- *  @param gap      [in,out]  shape [n_particles, 3]; after the step, from the faces before this one, unit m */
+ *  @param rates    [in,out]  of gaps that to this one is brought to the end of the step */
 double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_contact_soil *soil, int64_t lane,
-                                     int64_t particle, double across, double *gap);
+                                     int64_t particle, double across, const mor_contact_rates *rates);
 
 /** Friction of a patch with the soil of a particle.
  *  @param region   [in]  shape [n_particles], number of the region each is of, 1; NULL: one region

@@ -120,15 +120,7 @@ static void forget_motion(mor_body *body)
 static mor_status stop_motion(mor_context *context, mor_simulation *simulation, const mor_simulation_settling *settling)
 {
     mor_soil *soil = &simulation->soil;
-    const size_t n = (size_t)soil->set.n_particles;
-    memset(soil->set.data[MOR_FIELD_VELOCITY], 0, 3 * n * sizeof(double));
-    memset(soil->set.data[MOR_FIELD_DENSITY_RATE], 0, n * sizeof(double));
-    if (soil->set.data[MOR_FIELD_STRAIN_RATE] != NULL) {
-        memset(soil->set.data[MOR_FIELD_STRAIN_RATE], 0, 6 * n * sizeof(double));
-    }
-    if (soil->set.data[MOR_FIELD_FACE_GROWTH] != NULL) {
-        memset(soil->set.data[MOR_FIELD_FACE_GROWTH], 0, n * sizeof(double));
-    }
+    mor_set_stop(&soil->set, 0, soil->set.n_particles);
     soil->largest_speed = 0.0;
     for (int g = 0; g < simulation->bodies.n_groups; ++g) {
         for (int b = 0; b < simulation->bodies.groups[g]->n_bodies; ++b) {

@@ -172,20 +172,13 @@ static void tell_fields(mor_context *context, const mor_taken_soil *taken)
 /* Stops the particles of a region that is not released; what moves it again is computed from its release on. */
 static double stop_region(mor_set *set, int64_t first, int64_t n, double *fastest)
 {
-    static const int motion[] = {MOR_FIELD_VELOCITY, MOR_FIELD_DENSITY_RATE, MOR_FIELD_STRAIN_RATE,
-                                 MOR_FIELD_FACE_GROWTH};
     double energy = 0.0;
     for (int64_t i = first; i < first + n; ++i) {
         const double speed = mor_vector_length(set->data[MOR_FIELD_VELOCITY] + 3 * i);
         energy += 0.5 * set->data[MOR_FIELD_MASS][i] * speed * speed;
         *fastest = fmax(*fastest, speed);
     }
-    for (size_t k = 0; k < sizeof motion / sizeof *motion; ++k) {
-        const int width = set->fields[motion[k]].n_components;
-        if (set->data[motion[k]] != NULL) {
-            memset(set->data[motion[k]] + width * first, 0, (size_t)(width * n) * sizeof(double));
-        }
-    }
+    mor_set_stop(set, first, n);
     return energy;
 }
 
@@ -214,10 +207,11 @@ static void stop_held_soil(mor_context *context, const mor_taken_soil *taken, mo
 }
 
 /* What the stage changes does not move, so that no soil may sleep on from the run before. Faces are crossed where they
- * are in this case. */
+ * are in this case, and gaps to faces go by the numbers of walls and bodies in it: soil touches what it sees. */
 static bool begins_anew(int field)
 {
-    return field == MOR_FIELD_QUIET || field == MOR_FIELD_CROSSINGS;
+    return field == MOR_FIELD_QUIET || field == MOR_FIELD_CROSSINGS || field == MOR_FIELD_GAP ||
+           field == MOR_FIELD_GAP_FACE;
 }
 
 mor_status mor_taken_soil_apply(mor_context *context, const mor_taken_soil *taken, mor_simulation *simulation)

@@ -103,6 +103,32 @@ static void core_fields_are_described_without_gaps(void **state)
     }
 }
 
+static void particles_that_are_stopped_keep_all_but_their_motion(void **state)
+{
+    static const int motion[] = {MOR_FIELD_VELOCITY, MOR_FIELD_DENSITY_RATE, MOR_FIELD_STRAIN_RATE,
+                                 MOR_FIELD_FACE_GROWTH};
+    const int64_t first = 2;
+    const int64_t last = N - 1;
+    (void)state;
+    mor_context context;
+    mor_set set;
+    open_set(&context, &set);
+    mor_set_stop(&set, first, last - first);
+    for (int field = 0; field < set.n_fields; ++field) {
+        bool is_motion = false;
+        for (size_t k = 0; k < sizeof motion / sizeof *motion; ++k) {
+            is_motion = is_motion || motion[k] == field;
+        }
+        const int n_components = set.fields[field].n_components;
+        for (int k = 0; k < N * n_components; ++k) {
+            const int64_t i = k / n_components;
+            const bool stands = is_motion && i >= first && i < last;
+            assert_true(set.data[field][k] == (stands ? 0.0 : value_of(field, i, k % n_components))); /* exact */
+        }
+    }
+    close_set(&context, &set);
+}
+
 static void permute_moves_every_evolving_field_with_its_particle(void **state)
 {
     (void)state;
@@ -341,6 +367,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(new_set_is_zero_and_numbered),
         cmocka_unit_test(core_fields_are_described_without_gaps),
+        cmocka_unit_test(particles_that_are_stopped_keep_all_but_their_motion),
         cmocka_unit_test(permute_moves_every_evolving_field_with_its_particle),
         cmocka_unit_test(permute_goes_from_the_old_place_to_the_new),
         cmocka_unit_test(removed_particles_leave_the_others_in_order),

@@ -426,6 +426,47 @@ static void rebuilding_a_wall_allocates_only_for_more_soil(void **state)
     floor_close(&f);
 }
 
+/* Acceleration along the floor, over its limit by friction, of a particle at a height that moves along it at many times
+ * the speed of a wave as large as that limit. The rate of its strain shows no shear.
+ * height: spacings; shear: traction over the limit, 1 */
+static double resist_motion(int dimension, double height, double shear)
+{
+    static const double rate[6 * ASSEMBLY_MAX] = {0.0};
+    const double coefficient = 0.3;
+    const double pressure = 4e3;
+    floor_case f;
+    double point[3] = {0.0, 0.0, 0.0};
+    point[dimension - 1] = height * ASSEMBLY_SPACING;
+    assembly_open(&f.soil, dimension, point, 1);
+    floor_open(&f, MOR_WALL_COULOMB, coefficient);
+    f.presses_only = true;
+    floor_set_stress(&f, -pressure, shear * coefficient * pressure);
+    floor_run(&f, MOR_DISSIPATION_BOTH);
+    const double *record = floor_record(&f);
+    floor_record(&f)[MOR_RECORD_VELOCITY] = -100.0 * pressure / record[MOR_RECORD_IMPEDANCE];
+    mor_contact_soil soil = floor_soil(&f, MOR_DISSIPATION_BOTH);
+    soil.strain_rate = rate;
+    soil.depth = 0.5 * ASSEMBLY_SPACING;
+    memset(f.acceleration, 0, sizeof f.acceleration);
+    mor_soil_contact_sum_forces(&f.soil.context, &f.wall, &soil, f.acceleration);
+    const double along = f.acceleration[0] / (coefficient * f.acceleration[dimension - 1]);
+    floor_close(&f);
+    return along;
+}
+
+/* What slips on the floor meets the limit of its friction. Soil above the first layer does not slip by its own motion,
+ * but where its own traction is that limit. */
+static void first_layer_slips_and_soil_above_it_where_it_is_weak(void **state)
+{
+    const double tolerance = 1e-9; /* rounding */
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        assert_true(fabs(resist_motion(dimension, 0.5, 0.0) - 1.0) < tolerance);
+        assert_true(fabs(resist_motion(dimension, 1.5, 0.0)) < tolerance);
+        assert_true(fabs(resist_motion(dimension, 1.5, 1.0) - 1.0) < tolerance);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -444,6 +485,7 @@ int main(void)
         cmocka_unit_test(force_on_the_wall_is_minus_that_on_the_soil),
         cmocka_unit_test(walls_add_to_what_is_there_and_any_number_of_threads_agrees),
         cmocka_unit_test(rebuilding_a_wall_allocates_only_for_more_soil),
+        cmocka_unit_test(first_layer_slips_and_soil_above_it_where_it_is_weak),
     };
     return CLOUD_RUN(tests);
 }

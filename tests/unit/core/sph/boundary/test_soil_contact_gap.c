@@ -8,42 +8,53 @@
 
 /* Gaps between a particle and faces that it leaves and meets again. */
 
-static const double up[3] = {0.0, 1.0, 0.0};
-static const double down[3] = {0.0, -1.0, 0.0};
-
 #define DEPTH 0.5 /* of the first layer */
 
-/* Moves a particle that sees one face; returns how much of that the face mirrors, m. */
-static double move(double *gap, const double *normal, double distance, double leaves, double unloads)
+enum { FACE = 7, OTHER = 3 }; /* numbers of faces */
+
+/* Gaps of a particle, and the numbers of their faces. */
+typedef struct kept_gaps {
+    double gap[MOR_CONTACT_GAPS], face[MOR_CONTACT_GAPS];
+} kept_gaps;
+
+/* Forgets gaps to faces that were not seen, as the end of a step does. */
+static void end_step(kept_gaps *kept, const int8_t *sleep)
 {
-    double after[3] = {0.0};
+    mor_context context;
+    const mor_contact_soil soil = {.n_particles = 1};
+    const mor_contact_rates rates = {.gap = kept->gap, .gap_face = kept->face};
+    mor_context_init(&context);
+    mor_soil_contact_end_gaps(&context, &soil, sleep, &rates);
+}
+
+/* Moves a particle that sees a face; returns how much of that the face mirrors, m. */
+static double see(kept_gaps *kept, double face, double distance, double leaves, double unloads)
+{
     const mor_contact_leave it = {
-        .gap = gap, .depth = DEPTH, .normal = normal, .distance = distance, .leaves = leaves, .unloads = unloads};
-    const double closure = mor_soil_contact_leave_face(&it, after);
+        .face = face, .depth = DEPTH, .distance = distance, .leaves = leaves, .unloads = unloads};
+    const double closure = mor_soil_contact_leave_face(&it, kept->gap, kept->face);
     assert_true(closure >= 0.0 && closure <= 1.0);
-    memcpy(gap, after, sizeof after);
     return closure * leaves;
 }
 
-/* Moves a particle that sees two faces by a way, m; which: the first that it meets; mirrored: by each, m. */
-static void move_between(double *gap, const double (*normals)[3], int which, const double *way, double *mirrored)
+/* A step of a particle that sees one face; returns how much of the motion that mirrors, m. */
+static double move(kept_gaps *kept, double face, double distance, double leaves, double unloads)
 {
-    double after[3] = {0.0};
-    for (int k = 0; k < 2; ++k) {
-        const int face = (which + k) % 2;
-        const double leaves = mor_vector_dot(way, normals[face]);
-        const mor_contact_leave it = {
-            .gap = gap, .depth = DEPTH, .normal = normals[face], .distance = INFINITY, .leaves = leaves};
-        mirrored[face] = mor_soil_contact_leave_face(&it, after) * leaves;
-    }
-    memcpy(gap, after, sizeof after);
+    const double mirrored = see(kept, face, distance, leaves, unloads);
+    end_step(kept, NULL);
+    return mirrored;
+}
+
+static double gap_to(const kept_gaps *kept, double face)
+{
+    return mor_soil_contact_gap(kept->gap, kept->face, face, DEPTH, INFINITY);
 }
 
 /* Without pressure a face mirrors what goes beyond the nearest place so far, and nothing else: brute force over a
  * random walk. */
 static void face_mirrors_what_goes_beyond_the_nearest_place_so_far(void **state)
 {
-    double gap[3] = {0.0};
+    kept_gaps kept = {{0.0}, {0.0}};
     double height = 0.0;
     double lowest = 0.0;
     double mirrored = 0.0;
@@ -52,122 +63,118 @@ static void face_mirrors_what_goes_beyond_the_nearest_place_so_far(void **state)
         const double step = 1e-3 * (mor_random_uniform(7, 0, (uint64_t)k) - 0.5);
         height += step;
         lowest = fmin(lowest, height);
-        mirrored += move(gap, up, INFINITY, step, 0.0);
+        mirrored += move(&kept, FACE, INFINITY, step, 0.0);
         assert_true(fabs(mirrored - lowest) < 1e-9); /* gaps below 5e-10 are rounding */
-        assert_true(fabs(gap[1] - (height - lowest)) < 1e-9);
+        assert_true(fabs(gap_to(&kept, FACE) - (height - lowest)) < 1e-9);
     }
     assert_true(lowest < -1e-3 && height - lowest > 1e-4); /* or the walk tells nothing */
 }
 
-/* Likewise in a corner, whichever face comes first: one that a particle rests on has no part in the gap to the
- * other. */
-static void faces_of_a_corner_have_gaps_of_their_own(void **state)
+/* Likewise between as many faces as gaps are kept of, at any angles, and in any order: none has a part in the gap to
+ * another. */
+static void faces_at_any_angles_have_gaps_of_their_own(void **state)
 {
-    static const double normals[2][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-    double gap[3] = {0.0};
-    double place[2] = {0.0};
-    double nearest[2] = {0.0};
-    double sums[2] = {0.0};
+    kept_gaps kept = {{0.0}, {0.0}};
+    double normals[MOR_CONTACT_GAPS][3];
+    double place[3] = {0.0};
+    double nearest[MOR_CONTACT_GAPS] = {0.0};
+    double sums[MOR_CONTACT_GAPS] = {0.0};
     (void)state;
-    for (int k = 0; k < 1000; ++k) {
-        double way[3] = {0.0};
-        double mirrored[2];
-        for (int a = 0; a < 2; ++a) {
-            way[a] = 1e-3 * (mor_random_uniform(7, (uint64_t)a, (uint64_t)k) - (a == 0 ? 0.5 : 0.6));
-            place[a] += way[a];
-            nearest[a] = fmin(nearest[a], place[a]);
+    for (int n = 0; n < MOR_CONTACT_GAPS; ++n) {
+        for (int a = 0; a < 3; ++a) {
+            normals[n][a] = mor_random_uniform(11, (uint64_t)n, (uint64_t)a) - 0.5;
         }
-        move_between(gap, normals, k % 2, way, mirrored);
-        for (int a = 0; a < 2; ++a) {
-            sums[a] += mirrored[a];
-            /* Gaps of less than a hundredth of the other count as none: the second face has them most of the time. */
-            assert_true(sums[a] - nearest[a] < 1e-9);
+        const double length = mor_vector_length(normals[n]);
+        for (int a = 0; a < 3; ++a) {
+            normals[n][a] /= length;
         }
-        assert_true(fabs(sums[0] - nearest[0]) < 2e-4);
     }
-    assert_true(nearest[0] < -1e-3 && nearest[1] < -0.05);
-}
-
-/* Two walls with one face between them are one wall. */
-static void flush_faces_have_one_gap(void **state)
-{
-    static const double normals[2][3] = {{0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
-    double gap[3] = {0.0};
-    double mirrored[2];
-    (void)state;
-    move_between(gap, normals, 0, (const double[3]){0.0, 0.01, 0.0}, mirrored);
-    assert_true(fabs(gap[1] - 0.01) < 1e-15);
-    move_between(gap, normals, 0, (const double[3]){0.0, -0.015, 0.0}, mirrored);
-    assert_true(fabs(mirrored[0] + 0.005) < 1e-15 && fabs(mirrored[1] + 0.005) < 1e-15);
+    for (int k = 0; k < 1000; ++k) {
+        double way[3];
+        for (int a = 0; a < 3; ++a) {
+            way[a] = 1e-3 * (mor_random_uniform(7, (uint64_t)a, (uint64_t)k) - 0.5);
+            place[a] += way[a];
+        }
+        for (int m = 0; m < MOR_CONTACT_GAPS; ++m) {
+            const int n = (k + m) % MOR_CONTACT_GAPS;
+            nearest[n] = fmin(nearest[n], mor_vector_dot(place, normals[n]));
+            sums[n] += see(&kept, n + 1.0, INFINITY, mor_vector_dot(way, normals[n]), 0.0);
+            assert_true(fabs(sums[n] - nearest[n]) < 1e-9); /* gaps below 5e-10 are rounding */
+        }
+        end_step(&kept, NULL);
+    }
+    for (int n = 0; n < MOR_CONTACT_GAPS; ++n) {
+        assert_true(nearest[n] < -1e-3); /* or the walk tells nothing */
+    }
 }
 
 /* Motion that takes off pressure is mirrored, the rest opens the gap. */
 static void pressure_is_taken_off_before_a_gap_opens(void **state)
 {
-    double gap[3] = {0.0};
+    kept_gaps kept = {{0.0}, {0.0}};
     (void)state;
-    assert_true(move(gap, up, INFINITY, 0.002, 0.005) == 0.002);
-    assert_true(gap[1] == 0.0);
-    assert_true(fabs(move(gap, up, INFINITY, 0.008, 0.003) - 0.003) < 1e-15);
-    assert_true(fabs(gap[1] - 0.005) < 1e-15);
-    assert_true(move(gap, up, INFINITY, 0.001, 0.003) == 0.0); /* apart: whatever its stress */
-    assert_true(fabs(gap[1] - 0.006) < 1e-15);
-    assert_true(move(gap, up, INFINITY, 0.0, 0.003) == 0.0);
-    assert_true(fabs(gap[1] - 0.006) < 1e-15);
+    assert_true(move(&kept, FACE, INFINITY, 0.002, 0.005) == 0.002);
+    assert_true(gap_to(&kept, FACE) == 0.0);
+    assert_true(fabs(move(&kept, FACE, INFINITY, 0.008, 0.003) - 0.003) < 1e-15);
+    assert_true(fabs(gap_to(&kept, FACE) - 0.005) < 1e-15);
+    assert_true(move(&kept, FACE, INFINITY, 0.001, 0.003) == 0.0); /* apart: whatever its stress */
+    assert_true(fabs(gap_to(&kept, FACE) - 0.006) < 1e-15);
+    assert_true(move(&kept, FACE, INFINITY, 0.0, 0.003) == 0.0);
+    assert_true(fabs(gap_to(&kept, FACE) - 0.006) < 1e-15);
 }
 
-/* Soil that has left one face presses on the one opposite; coming back it closes the first gap before it opens
- * another. What it has left is forgotten with the face. */
-static void opposite_faces_tell_each_other_apart(void **state)
+/* What a particle has left of a face is forgotten with the face, and what sleeps forgets nothing. */
+static void gap_lasts_as_long_as_its_face_is_seen(void **state)
 {
-    static const double normals[2][3] = {{0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}};
+    static const int8_t asleep[1] = {MOR_SLEEP_ASLEEP};
+    kept_gaps kept = {{0.0}, {0.0}};
     (void)state;
-    for (int which = 0; which < 2; ++which) {
-        double gap[3] = {0.0};
-        double mirrored[2];
-        move_between(gap, normals, which, (const double[3]){0.0, 0.01, 0.0}, mirrored);
-        assert_true(mirrored[0] == 0.0 && fabs(mirrored[1] + 0.01) < 1e-15);
-        assert_true(fabs(gap[1] - 0.01) < 1e-15);
-        move_between(gap, normals, which, (const double[3]){0.0, -0.004, 0.0}, mirrored);
-        assert_true(mirrored[0] == 0.0 && mirrored[1] == 0.0);
-        assert_true(fabs(gap[1] - 0.006) < 1e-15);
-        move(gap, down, INFINITY, 0.001, 0.0); /* the face below is gone */
-        move(gap, down, INFINITY, 0.001, 0.0);
-        assert_true(fabs(gap[1] + 0.001) < 1e-15);
+    move(&kept, FACE, INFINITY, 0.01, 0.0);
+    end_step(&kept, asleep);
+    end_step(&kept, asleep);
+    assert_true(gap_to(&kept, FACE) == 0.01);
+    move(&kept, OTHER, INFINITY, 0.002, 0.0);
+    assert_true(gap_to(&kept, FACE) == 0.0 && gap_to(&kept, OTHER) == 0.002);
+    assert_true(move(&kept, FACE, INFINITY, -0.003, 0.0) == -0.003);
+}
+
+/* Of more faces than gaps are kept of those that come last count as touched, until one of the others is closed. */
+static void faces_beyond_those_that_are_kept_are_touched(void **state)
+{
+    kept_gaps kept = {{0.0}, {0.0}};
+    (void)state;
+    for (int step = 0; step < 2; ++step) {
+        for (int n = 0; n <= MOR_CONTACT_GAPS; ++n) {
+            assert_true(see(&kept, n + 1.0, INFINITY, 0.01, 0.0) == 0.0);
+        }
+        end_step(&kept, NULL);
+        assert_true(gap_to(&kept, MOR_CONTACT_GAPS) == 0.01 * (step + 1));
+        assert_true(gap_to(&kept, MOR_CONTACT_GAPS + 1.0) == 0.0);
     }
+    assert_true(fabs(see(&kept, 1.0, INFINITY, -0.03, 0.0) + 0.01) < 1e-15);
+    see(&kept, MOR_CONTACT_GAPS + 1.0, INFINITY, 0.005, 0.0);
+    assert_true(gap_to(&kept, MOR_CONTACT_GAPS + 1.0) == 0.005);
 }
 
 /* A gap is no wider than the particle is far: what is nearer than half the first layer's depth touches, and has no gap
  * from then on. */
 static void what_is_near_a_face_touches_it(void **state)
 {
-    double gap[3] = {0.0, 0.4, 0.0};
+    kept_gaps kept = {{0.4}, {FACE}};
     (void)state;
-    assert_true(mor_soil_contact_gap(gap, DEPTH, up, INFINITY) == 0.4);
-    assert_true(fabs(mor_soil_contact_gap(gap, DEPTH, up, 0.35) - 0.1) < 1e-15);
-    assert_true(mor_soil_contact_gap(gap, DEPTH, up, 0.2) == 0.0);
-    assert_true(mor_soil_contact_gap(gap, DEPTH, up, -0.1) == 0.0);
-    assert_true(move(gap, up, 0.2, -0.01, 0.0) == -0.01);
-    assert_true(move(gap, up, 0.255, 0.005, 0.01) == 0.005);
-    assert_true(gap[1] == 0.0);
-}
-
-/* A face that turns while soil presses on it finds no gap in what was left along it. */
-static void faces_that_turn_open_no_gap(void **state)
-{
-    double gap[3] = {0.0};
-    (void)state;
-    for (int k = 0; k < 100; ++k) {
-        const double angle = 0.01 * k;
-        const double normal[3] = {sin(angle), cos(angle), 0.0};
-        gap[0] += k == 0 ? 0.3 : 0.0; /* left of another face */
-        assert_true(move(gap, normal, INFINITY, -0.01, 0.0) == -0.01);
-    }
+    assert_true(mor_soil_contact_gap(kept.gap, kept.face, FACE, DEPTH, INFINITY) == 0.4);
+    assert_true(fabs(mor_soil_contact_gap(kept.gap, kept.face, FACE, DEPTH, 0.35) - 0.1) < 1e-15);
+    assert_true(mor_soil_contact_gap(kept.gap, kept.face, FACE, DEPTH, 0.2) == 0.0);
+    assert_true(mor_soil_contact_gap(kept.gap, kept.face, FACE, DEPTH, -0.1) == 0.0);
+    assert_true(move(&kept, FACE, 0.2, -0.01, 0.0) == -0.01);
+    assert_true(move(&kept, FACE, 0.255, 0.005, 0.01) == 0.005);
+    assert_true(gap_to(&kept, FACE) == 0.0);
 }
 
 /* Soil as it is seen with the gaps before a step, and what is kept of it. */
 typedef struct kept_soil {
-    double gap[3 * ASSEMBLY_MAX], growth[MOR_CONTACT_GROWTHS * ASSEMBLY_MAX], mean[6 * ASSEMBLY_MAX];
+    double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX], face[MOR_CONTACT_GAPS * ASSEMBLY_MAX],
+        growth[MOR_CONTACT_GROWTHS * ASSEMBLY_MAX], mean[6 * ASSEMBLY_MAX];
 } kept_soil;
 
 /* One particle under a pressure over a floor that only presses, Pa; opens f. */
@@ -184,6 +191,7 @@ static mor_contact_soil open_pressed(floor_case *f, kept_soil *kept, int dimensi
     floor_run(f, MOR_DISSIPATION_BOTH);
     mor_contact_soil soil = floor_soil(f, MOR_DISSIPATION_BOTH);
     soil.gap = kept->gap;
+    soil.gap_face = kept->face;
     soil.growth = kept->growth;
     soil.across = across;
     soil.depth = DEPTH;
@@ -204,8 +212,9 @@ static double press_with(floor_case *f, const mor_contact_soil *soil, double div
 /* Makes the particle leave the floor at a speed; returns what of that the floor mirrors, 1. */
 static double leave(floor_case *f, const mor_contact_soil *soil, double speed, double *gap)
 {
+    double face[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
     double face_growth[ASSEMBLY_MAX] = {0.0};
-    const mor_contact_rates rates = {f->velocity_gradient, f->density_rate, gap, face_growth};
+    const mor_contact_rates rates = {f->velocity_gradient, f->density_rate, gap, face, face_growth};
     floor_record(f)[MOR_RECORD_VELOCITY + f->soil.constants.dimension - 1] = speed;
     mor_soil_contact_add_growth(&f->soil.context, &f->wall, soil);
     mor_soil_contact_sum_gradient(&f->soil.context, &f->wall, soil, &rates);
@@ -222,7 +231,7 @@ static void mirrored_motion_takes_off_the_pressure(void **state)
     for (int dimension = 2; dimension <= 3; ++dimension) {
         floor_case f;
         kept_soil kept;
-        double gap[3 * ASSEMBLY_MAX] = {0.0};
+        double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
         const mor_contact_soil soil = open_pressed(&f, &kept, dimension, pressure);
         const double mirrored = leave(&f, &soil, 10.0, gap) * 10.0 * soil.length;
         const double *record = floor_record(&f);
@@ -231,7 +240,7 @@ static void mirrored_motion_takes_off_the_pressure(void **state)
         const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
         assert_true(mirrored < 10.0 * soil.length);                                       /* or nothing opens */
         assert_true(fabs(stiffness * 2.0 * gradient * mirrored / pressure - 1.0) < 1e-9); /* rounding */
-        assert_true(fabs(gap[dimension - 1] + mirrored - 10.0 * soil.length) < 1e-12);
+        assert_true(fabs(gap[0] + mirrored - 10.0 * soil.length) < 1e-12);
         floor_close(&f);
     }
 }
@@ -245,14 +254,14 @@ static void soil_that_keeps_its_volume_keeps_in_touch(void **state)
     for (int dimension = 2; dimension <= 3; ++dimension) {
         floor_case f;
         kept_soil kept;
-        double gap[3 * ASSEMBLY_MAX] = {0.0};
+        double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
         mor_contact_soil soil = open_pressed(&f, &kept, dimension, 4e3);
         soil.length = 10.0; /* s; or the motion is too small for the pressure */
         const double own = press_with(&f, &soil, 0.0);
         const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
         kept.growth[MOR_CONTACT_GROWTH_REST] = -2.0 * gradient * speed; /* by the soil beside */
         assert_true(leave(&f, &soil, speed, gap) == 1.0);
-        assert_true(gap[dimension - 1] == 0.0);
+        assert_true(gap[0] == 0.0);
         assert_true(fabs(press_with(&f, &soil, 0.0) - own) < 0.1 * own);
         kept.growth[MOR_CONTACT_GROWTH_REST] = 0.0;
         assert_true(press_with(&f, &soil, 0.0) < 0.2 * own); /* or the bound on the work tells nothing */
@@ -269,10 +278,11 @@ static void faces_that_are_left_together_share_what_opens(void **state)
     for (int n_faces = 1; n_faces <= 3; ++n_faces) {
         floor_case f;
         kept_soil kept;
-        double gap[3 * ASSEMBLY_MAX] = {0.0};
+        double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
+        double face[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
         double face_growth[ASSEMBLY_MAX] = {0.0};
         const mor_contact_soil soil = open_pressed(&f, &kept, 2, pressure);
-        const mor_contact_rates rates = {f.velocity_gradient, f.density_rate, gap, face_growth};
+        const mor_contact_rates rates = {f.velocity_gradient, f.density_rate, gap, face, face_growth};
         floor_record(&f)[MOR_RECORD_VELOCITY + 1] = 10.0;
         mor_soil_contact_add_growth(&f.soil.context, &f.wall, &soil);
         kept.growth[MOR_CONTACT_GROWTH_FACES] *= n_faces;
@@ -296,7 +306,8 @@ static void open_face_takes_no_part_in_the_growth(void **state)
         const mor_contact_soil soil = open_pressed(&f, &kept, dimension, 4e3);
         double *velocity = floor_record(&f) + MOR_RECORD_VELOCITY + dimension - 1;
         const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
-        kept.gap[dimension - 1] = 0.002; /* m */
+        kept.gap[0] = 0.002; /* m */
+        kept.face[0] = 1.0;  /* of the only patch of the first wall */
         *velocity = 10.0;
         mor_soil_contact_add_growth(&f.soil.context, &f.wall, &soil);
         assert_true(kept.growth[MOR_CONTACT_GROWTH_FACES] == 0.0 && kept.growth[MOR_CONTACT_GROWTH_LEFT] == 0.0);
@@ -315,7 +326,7 @@ static void face_that_bears_nothing_more_opens(void **state)
     (void)state;
     floor_case f;
     kept_soil kept;
-    double gap[3 * ASSEMBLY_MAX] = {0.0};
+    double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
     mor_contact_soil soil = open_pressed(&f, &kept, 2, 4e3);
     kept.mean[1] = -2e3;
     soil.mean_stress = kept.mean;
@@ -357,26 +368,6 @@ static void face_that_is_left_presses_as_long_as_it_bears(void **state)
             floor_close(&f);
         }
     }
-}
-
-/* A gap that is wider than any face is seen from is cut to that, along itself, and one that is not stays as it was. */
-static void gap_is_no_wider_than_faces_are_seen_from(void **state)
-{
-    double gap[3 * ASSEMBLY_MAX] = {0.3, -1.2, 0.4, 3e50, 0.0, -4e50};
-    double before[3 * ASSEMBLY_MAX] = {0.0};
-    double face_growth[ASSEMBLY_MAX] = {0.0};
-    floor_case f;
-    kept_soil kept;
-    (void)state;
-    mor_contact_soil soil = open_pressed(&f, &kept, 3, 4e3);
-    const mor_contact_rates rates = {.gap = gap, .face_growth = face_growth};
-    soil.n_particles = 2;
-    mor_soil_contact_begin_gaps(&f.soil.context, &soil, NULL, &rates, before);
-    assert_true(before[0] == 0.3 && before[1] == -1.2 && before[2] == 0.4);
-    assert_true(fabs(before[3] - 0.6 * 6.0 * DEPTH) < 1e-12 && before[4] == 0.0); /* rounding */
-    assert_true(fabs(before[5] + 0.8 * 6.0 * DEPTH) < 1e-12);
-    assert_true(gap[3] == 0.0 && gap[5] == 0.0);
-    floor_close(&f);
 }
 
 /* The growth of the last step is that of the density, less what faces mirrored. */
@@ -443,12 +434,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(face_mirrors_what_goes_beyond_the_nearest_place_so_far),
-        cmocka_unit_test(faces_of_a_corner_have_gaps_of_their_own),
-        cmocka_unit_test(flush_faces_have_one_gap),
+        cmocka_unit_test(faces_at_any_angles_have_gaps_of_their_own),
+        cmocka_unit_test(gap_lasts_as_long_as_its_face_is_seen),
         cmocka_unit_test(pressure_is_taken_off_before_a_gap_opens),
-        cmocka_unit_test(opposite_faces_tell_each_other_apart),
+        cmocka_unit_test(faces_beyond_those_that_are_kept_are_touched),
         cmocka_unit_test(what_is_near_a_face_touches_it),
-        cmocka_unit_test(faces_that_turn_open_no_gap),
         cmocka_unit_test(mirrored_motion_takes_off_the_pressure),
         cmocka_unit_test(soil_that_keeps_its_volume_keeps_in_touch),
         cmocka_unit_test(face_holds_as_much_as_it_has_borne),
@@ -457,7 +447,6 @@ int main(void)
         cmocka_unit_test(face_that_bears_nothing_more_opens),
         cmocka_unit_test(face_that_is_left_presses_as_long_as_it_bears),
         cmocka_unit_test(growth_of_the_soil_is_that_without_faces),
-        cmocka_unit_test(gap_is_no_wider_than_faces_are_seen_from),
         cmocka_unit_test(continued_stress_is_bounded_by_the_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
