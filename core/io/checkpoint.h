@@ -21,7 +21,7 @@
 #define MOR_CHECKPOINT_PREVIOUS_FILE "checkpoint.previous.h5"
 #define MOR_CHECKPOINT_WHAT "checkpoint" /* what its seal says it holds */
 
-enum { MOR_CHECKPOINT_VERSION = 3 };
+enum { MOR_CHECKPOINT_VERSION = 4 };
 
 /** What is saved and restored; everything in it is borrowed. */
 typedef struct mor_checkpoint {

@@ -414,7 +414,7 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
               MOR_SOIL_WALLS_MAX);
     MOR_TRY(context,
             mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
-    soil->walls[soil->n_walls].number = soil->n_walls;
+    mor_soil_contact_number(soil->walls, soil->n_walls, 0);
     soil->n_walls += 1;
     return soil->walls[soil->n_walls - 1].normals != NULL ? make_corners(context, soil) : MOR_OK;
 }
@@ -436,7 +436,7 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
               MOR_SOIL_BOUNDARIES_MAX);
     MOR_TRY(context, mor_soil_contact_borrow(context, &soil->boundaries[soil->n_boundaries], boundary, stress,
                                              soil->settings.dimension, soil->tree.n_clusters));
-    soil->boundaries[soil->n_boundaries].number = MOR_SOIL_WALLS_MAX + soil->n_boundaries;
+    mor_soil_contact_number(soil->boundaries, soil->n_boundaries, MOR_SOIL_WALLS_MAX);
     soil->n_boundaries += 1;
     mor_soil_forget_lists(soil);
     if (soil->sleep.states != NULL) {

@@ -103,6 +103,50 @@ static void soil_with_cohesion_keeps_gaps(void **state)
     }
 }
 
+/* A small block that flies between four walls, which it leaves at four speeds. */
+static const char flying[] =
+    "dimension = 2; spacing = '10 mm'; end = '1 s'; gravity = (0, 0, 0);"
+    "domain = { min = (-0.2, -0.2, -1); max = (0.3, 0.3, 1); };"
+    "soil = ( { name = 'clay'; shape = { type = 'box'; min = (0, 0); max = (0.03, 0.03); }; velocity = (0.02, 0.05);"
+    "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '5 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '30 deg'; cohesion = '50 kPa'; }; } );"
+    "walls = ( { name = 'left'; friction = 'coulomb'; friction_coefficient = 0.3;"
+    "    shape = { type = 'half_space'; point = (0, 0, 0); normal = (1, 0, 0); }; },"
+    "  { name = 'floor'; friction = 'coulomb'; friction_coefficient = 0.3;"
+    "    shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 1, 0); }; },"
+    "  { name = 'right'; friction = 'coulomb'; friction_coefficient = 0.3; velocity = (0.09, 0.05);"
+    "    shape = { type = 'half_space'; point = (0.03, 0, 0); normal = (-1, 0, 0); }; },"
+    "  { name = 'top'; friction = 'coulomb'; friction_coefficient = 0.3; velocity = (0.02, 0.16);"
+    "    shape = { type = 'half_space'; point = (0, 0.03, 0); normal = (0, -1, 0); }; } );";
+
+/* Its middle, which sees all four, has left each by the motion between them. */
+static void gaps_are_those_to_each_of_the_faces(void **state)
+{
+    static const double speeds[4] = {0.02, 0.05, 0.07, 0.11}; /* m/s, away from the block */
+    const double time = 0.02;
+    scene *it = scene_new(&(scene_request){flying, NULL, 0, 2});
+    const mor_soil *soil = &it->simulation.soil;
+    int n_found = 0;
+    (void)state;
+    scene_advance(it, time);
+    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+        const double *x = soil->set.data[MOR_FIELD_POSITION] + 3 * i;
+        const bool is_middle = fabs(x[0] - 0.015 - 0.02 * time) < 0.002 && fabs(x[1] - 0.015 - 0.05 * time) < 0.002;
+        for (int k = 0; k < MOR_CONTACT_GAPS; ++k) {
+            const double face = soil->set.data[MOR_FIELD_GAP_FACE][MOR_CONTACT_GAPS * i + k];
+            const double gap = soil->set.data[MOR_FIELD_GAP][MOR_CONTACT_GAPS * i + k];
+            const int wall = (int)face - 1; /* they are numbered from 1 */
+            assert_true(wall < 4 && (wall >= 0 || (face == 0.0 && gap == 0.0)));
+            if (wall >= 0) { /* motion over steps, rounded */
+                scene_expect_near("a gap", gap, speeds[wall] * time, 1e-9);
+                n_found += is_middle ? 1 << (4 * wall) : 0;
+            }
+        }
+    }
+    assert_int_equal(n_found, 0x1111);
+    scene_free(it);
+}
+
 /* Stiff soil of little cohesion falls over discs without friction. */
 static const char falling[] =
     "dimension = 2; spacing = '50 mm'; end = '0.1 s'; gravity = (0, '-9.81 m/s2', 0);"
@@ -213,6 +257,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(soil_under_tension_resists_a_body_that_moves_into_it),
         cmocka_unit_test(soil_with_cohesion_keeps_gaps),
+        cmocka_unit_test(gaps_are_those_to_each_of_the_faces),
         cmocka_unit_test(soil_that_falls_over_smooth_rocks_gains_no_energy),
         cmocka_unit_test(rocks_stronger_than_the_soil_hold_it_back_as_rough_ones),
         cmocka_unit_test(energy_that_boundaries_give_is_found),

@@ -134,7 +134,10 @@ static mor_status start(mor_context *context, const mor_safety_request *request,
         mor_reduced_case_set_factor(it->setup.reduced, factor);
         const mor_status status = prepare(context, request, it, k == 0);
         if (status == MOR_NOT_CONVERGED && k + 1 < HALVES_MAX) {
-            fprintf(request->output, "at F = %g the soil does not come to rest: %s\n", factor, context->message);
+            fprintf(request->output, "%9.5f  %-9s  the soil does not come to rest; the search begins lower\n", factor,
+                    "no start");
+            mor_context_log(context, MOR_LOG_INFO, "F = %g: the soil does not come to rest: %s", factor,
+                            context->message);
             mor_context_clear_error(context);
             continue;
         }

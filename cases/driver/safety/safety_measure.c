@@ -16,10 +16,14 @@ static const double smallest_body = 0.05;
 /* Soil this much deeper than its surface is uneven is no slope by its surface: a cut, a heap against a wall. */
 static const double deep = 4.0;
 
+/* Particles lie half a spacing below the surface of the soil, at its highest as at its lowest place, but half a spacing
+ * above the lowest place of a toe that stands on a floor, where one particle is all there is. */
 static mor_status find_height(mor_context *context, const mor_simulation *simulation, double *height)
 {
+    const double spacing = simulation->the_case->spacing;
     mor_soil_columns columns;
     double *tops = NULL;
+    double bottom = INFINITY;
     double low = INFINITY;
     double high = -INFINITY;
     mor_soil_columns_find(simulation, &columns);
@@ -32,13 +36,15 @@ static mor_status find_height(mor_context *context, const mor_simulation *simula
         const double *x = simulation->soil.set.data[MOR_FIELD_POSITION] + 3 * i;
         double *top = &tops[mor_soil_columns_of(&columns, x)];
         *top = fmax(*top, mor_vector_dot(x, columns.up));
+        bottom = fmin(bottom, mor_vector_dot(x, columns.up));
     }
     for (int64_t k = 0; k < n; ++k) {
         low = tops[k] > -INFINITY ? fmin(low, tops[k]) : low;
         high = fmax(high, tops[k]);
     }
     MOR_FREE(context, &tops);
-    *height = deep * (high - low) < simulation->soil_depth ? simulation->soil_depth : high - low;
+    const double relief = high - low + (low - bottom < spacing ? spacing : 0.0);
+    *height = deep * relief < simulation->soil_depth ? simulation->soil_depth : relief;
     return MOR_OK;
 }
 

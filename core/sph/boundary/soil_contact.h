@@ -99,8 +99,7 @@ typedef struct mor_contact_soil {
     const double *strain_rate;   /* shape [n_particles, 6], of the last step, 1/s; NULL: none is kept */
     double depth;                /* of a particle of the first layer under the face of the soil, m */
     const double *gap;           /* shape [n_particles, MOR_CONTACT_GAPS]; by how much each has left faces around it
-                                  * that only press, before the step, (W3b) of docs/theory/walls.md, m; NULL: none is
-                                  * kept */
+                                  * that only press, (W3b) of docs/theory/walls.md, m; NULL: none is kept */
     const double *gap_face;      /* shape [n_particles, MOR_CONTACT_GAPS]; their numbers, 1; 0: none; with gap */
     double *growth;              /* shape [n_particles, MOR_CONTACT_GROWTHS]; with gap, units of the enum */
     const double *mean_stress;   /* shape [n_particles, 6]; recent mean of the stress, Pa; NULL: none is kept */
@@ -122,7 +121,7 @@ typedef struct mor_contact_corner {
 /** One boundary and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
-    int number; /* from 0; its own among the boundaries of the soil, 1 */
+    int first_face; /* number of its first patch among those of all boundaries, 1 */
     int64_t n_points;
     mor_boundary *boundary;         /* a wall's own, otherwise borrowed */
     bool is_wall;                   /* a single patch that moves as prescribed below; owns its boundary */
@@ -173,6 +172,16 @@ typedef struct mor_soil_contact {
     double longest_step; /* that the barrier allowed in the last step, s; infinite without */
     double force[3];     /* of the soil on all patches in the last step, N (N/m in plane strain) */
 } mor_soil_contact;
+
+/** Numbers the patches of the last of several contacts behind those of the others.
+ *  @param contacts [in,out]  shape [last + 1]
+ *  @param last     [in]      index of the new one, >= 0
+ *  @param first    [in]      number of the first patch of the first of them, >= 0, unit 1 */
+static inline void mor_soil_contact_number(mor_soil_contact *contacts, int last, int first)
+{
+    contacts[last].first_face =
+        last > 0 ? contacts[last - 1].first_face + contacts[last - 1].boundary->n_patches : first;
+}
 
 /** Makes a wall. Sorts its points into clusters.
  *  @param period          [in]      of space, outlives the wall; NULL: none. What a wall is beyond a periodic face
@@ -393,7 +402,8 @@ typedef struct mor_contact_rates {
     double *velocity_gradient; /* shape [n_particles, 9], 1/s; added to */
     double *density_rate;      /* shape [n_particles], kg/m3/s; added to */
     double *gap, *gap_face;    /* shape [n_particles, MOR_CONTACT_GAPS], m, 1; those of the soil, brought to the end of
-                                * the step; NULL: none are kept */
+                                * the step face by face: those that are have negative numbers until the end of all;
+                                * NULL: none are kept */
     double *face_growth;       /* shape [n_particles], 1/s; with gap, rate of volume by what is mirrored; added to */
 } mor_contact_rates;
 
@@ -404,6 +414,7 @@ void mor_soil_contact_begin_growth(mor_context *context, const mor_contact_soil 
 
 /** Ends what boundaries change of gaps in a step, after all have set theirs: forgets those to faces that were not seen
  *  in it. Soil that sleeps keeps its own.
+ *  @param soil  [in]      number of particles
  *  @param sleep [in]      shape [clusters]; states of sleep; NULL: all is awake
  *  @param rates [in,out]  without a gap nothing is done */
 void mor_soil_contact_end_gaps(mor_context *context, const mor_contact_soil *soil, const int8_t *sleep,

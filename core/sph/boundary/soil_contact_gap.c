@@ -8,7 +8,6 @@
 #include "core/base/parallel.h"
 
 #include <math.h>
-#include <string.h>
 
 /* LEAST: a gap up to this part of the depth of the first layer is rounding. NEAREST: what is nearer to a face than
  * this part of that depth touches it whatever its gap, so that soil does not pass through a face that counts as
@@ -16,27 +15,28 @@
 #define LEAST 1.0e-9
 #define NEAREST 0.5
 
-enum { FREE = 0, GAPS = MOR_CONTACT_GAPS };
+enum { NO_FACE = 0, KEPT = MOR_CONTACT_GAPS };
 
-/* Returns which of the gaps of a particle is to a face, GAPS if none. A face that has been seen in the step has the
+/* Returns which of the gaps of a particle is to a face, KEPT if none. A face that has been seen in the step has the
  * negative of its number there. */
 static int find_place(const double *faces, double face)
 {
     int k = 0;
-    while (k < GAPS && fabs(faces[k]) != face) {
+    while (k < KEPT && fabs(faces[k]) != face) {
         ++k;
     }
     return k;
 }
 
-/* Of a particle that has left more faces than are kept, those that come last count as touched. */
-static void keep_gap(double gap, double face, double *gaps, double *faces)
+/* Of a particle that has left more faces than are kept, those that come last count as touched.
+ * is_open: the gap counts */
+static void keep_gap(double gap, bool is_open, double face, double *gaps, double *faces)
 {
     const int own = find_place(faces, face);
-    const int k = own < GAPS || gap == 0.0 ? own : find_place(faces, FREE);
-    if (k < GAPS) {
-        gaps[k] = gap;
-        faces[k] = gap > 0.0 ? -face : FREE;
+    const int k = own < KEPT || !is_open ? own : find_place(faces, NO_FACE);
+    if (k < KEPT) {
+        gaps[k] = is_open ? gap : 0.0;
+        faces[k] = is_open ? -face : NO_FACE;
     }
 }
 
@@ -52,12 +52,14 @@ void mor_soil_contact_end_gaps(mor_context *context, const mor_contact_soil *soi
                                const mor_contact_rates *rates)
 {
     MOR_PARALLEL_FOR (context, i, rates->gap != NULL ? soil->n_particles : 0, MOR_BLOCK) {
-        double *gaps = rates->gap + GAPS * i;
-        double *faces = rates->gap_face + GAPS * i;
-        for (int k = 0; k < GAPS && !mor_sleep_is(sleep, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP); ++k) {
-            const bool is_seen = faces[k] < 0.0;
-            gaps[k] = is_seen ? gaps[k] : 0.0;
-            faces[k] = is_seen ? -faces[k] : FREE;
+        double *gaps = rates->gap + KEPT * i;
+        double *faces = rates->gap_face + KEPT * i;
+        const bool sleeps = mor_sleep_is(sleep, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
+        for (int k = 0; k < KEPT; ++k) {
+            if (!sleeps && faces[k] != NO_FACE) {
+                gaps[k] = faces[k] < 0.0 ? gaps[k] : 0.0;
+                faces[k] = faces[k] < 0.0 ? -faces[k] : NO_FACE;
+            }
         }
     }
 }
@@ -132,7 +134,7 @@ void mor_soil_contact_add_growth(mor_context *context, const mor_soil_contact *c
 double mor_soil_contact_gap(const double *gaps, const double *faces, double face, double depth, double distance)
 {
     const int k = find_place(faces, face);
-    const double open = mor_min(k < GAPS ? gaps[k] : 0.0, distance - NEAREST * depth);
+    const double open = mor_min(k < KEPT ? gaps[k] : 0.0, distance - NEAREST * depth);
     return open > LEAST * depth ? open : 0.0;
 }
 
@@ -145,7 +147,8 @@ double mor_soil_contact_leave_face(const mor_contact_leave *it, double *gaps, do
     } else {
         follows = mor_min(it->leaves + open, 0.0);
     }
-    keep_gap(mor_max(open + it->leaves - follows, 0.0), it->face, gaps, faces);
+    const double left = open + it->leaves - follows;
+    keep_gap(left, left > LEAST * it->depth, it->face, gaps, faces);
     return it->leaves != 0.0 ? follows / it->leaves : open > 0.0 ? 0.0 : 1.0;
 }
 
@@ -174,5 +177,5 @@ double mor_soil_contact_find_closure(const mor_soil_contact *contact, const mor_
                                      .distance = mor_soil_contact_distance(contact, lane),
                                      .leaves = face.leaves,
                                      .unloads = face.leaves * part};
-    return mor_soil_contact_leave_face(&leave, rates->gap + GAPS * particle, rates->gap_face + GAPS * particle);
+    return mor_soil_contact_leave_face(&leave, rates->gap + KEPT * particle, rates->gap_face + KEPT * particle);
 }

@@ -71,12 +71,12 @@ static inline double mor_soil_contact_across(const mor_contact_soil *soil, mor_w
  *  @param lane [in]  of the slots */
 static inline double mor_soil_contact_face(const mor_soil_contact *contact, int64_t lane)
 {
-    return 4294967296.0 * contact->number + contact->slots[lane / MOR_CLUSTER].patch + 1.0;
+    return (double)contact->first_face + contact->slots[lane / MOR_CLUSTER].patch + 1.0;
 }
 
 /** How far a particle stands off a face, m; 0: it touches. Never further than the face is away from the first layer.
  *  @param gaps     [in]  shape [MOR_CONTACT_GAPS]; of the particle, before the step, unit m
- *  @param faces    [in]  shape [MOR_CONTACT_GAPS]; numbers of their faces, unit 1
+ *  @param faces    [in]  shape [MOR_CONTACT_GAPS]; numbers of their faces, negative or not, unit 1
  *  @param face     [in]  number of the face, > 0, unit 1
  *  @param depth    [in]  of the first layer, unit m
  *  @param distance [in]  from the face, unit m; infinite where it is not known */
@@ -95,7 +95,7 @@ typedef struct mor_contact_leave {
  *  it: away from it what goes on without pressure, less what closes the gap towards it.
  *  @param gaps  [in,out]  shape [MOR_CONTACT_GAPS]; of the particle; that to this face is brought to the end of the
  *                         step, unit m
- *  @param faces [in,out]  shape [MOR_CONTACT_GAPS]; numbers of their faces; this one is marked as seen, unit 1
+ *  @param faces [in,out]  shape [MOR_CONTACT_GAPS]; numbers of their faces; this one becomes negative, unit 1
  *  Returns: the part of the motion that is mirrored, 0 to 1. */
 double mor_soil_contact_leave_face(const mor_contact_leave *it, double *gaps, double *faces);
 

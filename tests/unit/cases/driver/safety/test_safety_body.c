@@ -47,6 +47,28 @@ static void the_height_is_the_thickness_whatever_the_period(void **state)
     }
 }
 
+/* A slope of 2 m, on a floor or with soil in front of it. */
+static void the_height_of_a_slope_is_told_to_the_ground(void **state)
+{
+    static const char *const shapes[2] = {
+        "soil[0].shape={ type='polygon'; points=(('0 m','0 m'),('4 m','0 m'),('2 m','2 m'),('0 m','2 m')); }",
+        "soil[0].shape={ type='polygon'; points=(('0 m','0 m'),('6 m','0 m'),('6 m','1 m'),('4 m','1 m'),('2 m','3 m'),"
+        "('0 m','3 m')); }"};
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        mor_safety_reference reference;
+        const char *const settings[] = {shapes[k], "domain={ min=('-1 m','-0.5 m'); max=('7 m','4 m'); }",
+                                        "gravity=(0, -9.81)", NULL};
+        const char *const *const lists[] = {settings};
+        const scene_request request = {.text = text, .settings = lists, .n_lists = 1};
+        scene *it = scene_new(&request);
+        scene_require(it, mor_safety_reference_init(&it->context, &it->simulation, NAN, &reference));
+        scene_expect_near("the height", reference.height, 2.0, 0.02); /* of rows whose centers a slanted face cuts */
+        mor_safety_reference_clear(&it->context, &reference);
+        scene_free(it);
+    }
+}
+
 static void a_gravity_along_the_axis_asks_for_a_height(void **state)
 {
     mor_safety_reference reference;
@@ -116,6 +138,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_height_is_the_thickness_whatever_the_period),
+        cmocka_unit_test(the_height_of_a_slope_is_told_to_the_ground),
         cmocka_unit_test(a_gravity_along_the_axis_asks_for_a_height),
         cmocka_unit_test(a_body_without_ends_has_none),
         cmocka_unit_test(a_grain_beside_the_body_is_no_part_of_it),

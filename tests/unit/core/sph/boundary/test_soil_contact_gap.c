@@ -18,13 +18,28 @@ typedef struct kept_gaps {
 } kept_gaps;
 
 /* Forgets gaps to faces that were not seen, as the end of a step does. */
-static void end_step(kept_gaps *kept, const int8_t *sleep)
+static void end_steps(kept_gaps *kept, int64_t n, const int8_t *sleep)
 {
     mor_context context;
-    const mor_contact_soil soil = {.n_particles = 1};
-    const mor_contact_rates rates = {.gap = kept->gap, .gap_face = kept->face};
+    const mor_contact_soil soil = {.n_particles = n};
+    double gap[ASSEMBLY_MAX][MOR_CONTACT_GAPS];
+    double face[ASSEMBLY_MAX][MOR_CONTACT_GAPS];
+    const mor_contact_rates rates = {.gap = gap[0], .gap_face = face[0]};
+    for (int64_t i = 0; i < n; ++i) {
+        memcpy(gap[i], kept[i].gap, sizeof gap[i]);
+        memcpy(face[i], kept[i].face, sizeof face[i]);
+    }
     mor_context_init(&context);
     mor_soil_contact_end_gaps(&context, &soil, sleep, &rates);
+    for (int64_t i = 0; i < n; ++i) {
+        memcpy(kept[i].gap, gap[i], sizeof gap[i]);
+        memcpy(kept[i].face, face[i], sizeof face[i]);
+    }
+}
+
+static void end_step(kept_gaps *kept)
+{
+    end_steps(kept, 1, NULL);
 }
 
 /* Moves a particle that sees a face; returns how much of that the face mirrors, m. */
@@ -41,7 +56,7 @@ static double see(kept_gaps *kept, double face, double distance, double leaves, 
 static double move(kept_gaps *kept, double face, double distance, double leaves, double unloads)
 {
     const double mirrored = see(kept, face, distance, leaves, unloads);
-    end_step(kept, NULL);
+    end_step(kept);
     return mirrored;
 }
 
@@ -101,7 +116,7 @@ static void faces_at_any_angles_have_gaps_of_their_own(void **state)
             sums[n] += see(&kept, n + 1.0, INFINITY, mor_vector_dot(way, normals[n]), 0.0);
             assert_true(fabs(sums[n] - nearest[n]) < 1e-9); /* gaps below 5e-10 are rounding */
         }
-        end_step(&kept, NULL);
+        end_step(&kept);
     }
     for (int n = 0; n < MOR_CONTACT_GAPS; ++n) {
         assert_true(nearest[n] < -1e-3); /* or the walk tells nothing */
@@ -126,13 +141,20 @@ static void pressure_is_taken_off_before_a_gap_opens(void **state)
 /* What a particle has left of a face is forgotten with the face, and what sleeps forgets nothing. */
 static void gap_lasts_as_long_as_its_face_is_seen(void **state)
 {
-    static const int8_t asleep[1] = {MOR_SLEEP_ASLEEP};
+    static const int8_t sleep[3] = {0, MOR_SLEEP_ASLEEP, 0};
+    kept_gaps many[2 * MOR_CLUSTER + 1] = {{{0.0}, {0.0}}};
     kept_gaps kept = {{0.0}, {0.0}};
     (void)state;
+    for (int i = 0; i <= 2 * MOR_CLUSTER; ++i) {
+        see(&many[i], FACE, INFINITY, 0.01, 0.0);
+        end_step(&many[i]);
+    }
+    end_steps(many, 2 * MOR_CLUSTER + 1, sleep); /* no face is seen */
+    for (int i = 0; i <= 2 * MOR_CLUSTER; ++i) {
+        assert_true(gap_to(&many[i], FACE) == (i / MOR_CLUSTER == 1 ? 0.01 : 0.0));
+        assert_true(many[i].face[0] == (i / MOR_CLUSTER == 1 ? FACE : 0.0));
+    }
     move(&kept, FACE, INFINITY, 0.01, 0.0);
-    end_step(&kept, asleep);
-    end_step(&kept, asleep);
-    assert_true(gap_to(&kept, FACE) == 0.01);
     move(&kept, OTHER, INFINITY, 0.002, 0.0);
     assert_true(gap_to(&kept, FACE) == 0.0 && gap_to(&kept, OTHER) == 0.002);
     assert_true(move(&kept, FACE, INFINITY, -0.003, 0.0) == -0.003);
@@ -147,13 +169,29 @@ static void faces_beyond_those_that_are_kept_are_touched(void **state)
         for (int n = 0; n <= MOR_CONTACT_GAPS; ++n) {
             assert_true(see(&kept, n + 1.0, INFINITY, 0.01, 0.0) == 0.0);
         }
-        end_step(&kept, NULL);
+        end_step(&kept);
         assert_true(gap_to(&kept, MOR_CONTACT_GAPS) == 0.01 * (step + 1));
         assert_true(gap_to(&kept, MOR_CONTACT_GAPS + 1.0) == 0.0);
     }
     assert_true(fabs(see(&kept, 1.0, INFINITY, -0.03, 0.0) + 0.01) < 1e-15);
     see(&kept, MOR_CONTACT_GAPS + 1.0, INFINITY, 0.005, 0.0);
     assert_true(gap_to(&kept, MOR_CONTACT_GAPS + 1.0) == 0.005);
+}
+
+/* Patches of a soil's boundaries have numbers of their own: walls in their order, and rocks behind one another. */
+static void faces_are_numbered_one_after_the_other(void **state)
+{
+    mor_pair_slot slots[2] = {{.patch = 0}, {.patch = 2}};
+    mor_boundary boundaries[2] = {{.n_patches = 3}, {.n_patches = 1}};
+    mor_soil_contact contacts[2] = {{.boundary = &boundaries[0]}, {.boundary = &boundaries[1]}};
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        contacts[k].slots = slots;
+        mor_soil_contact_number(contacts, k, 10);
+    }
+    assert_true(mor_soil_contact_face(&contacts[0], MOR_CLUSTER - 1) == 11.0);
+    assert_true(mor_soil_contact_face(&contacts[0], MOR_CLUSTER) == 13.0);
+    assert_true(mor_soil_contact_face(&contacts[1], 0) == 14.0);
 }
 
 /* A gap is no wider than the particle is far: what is nearer than half the first layer's depth touches, and has no gap
@@ -210,11 +248,10 @@ static double press_with(floor_case *f, const mor_contact_soil *soil, double div
 }
 
 /* Makes the particle leave the floor at a speed; returns what of that the floor mirrors, 1. */
-static double leave(floor_case *f, const mor_contact_soil *soil, double speed, double *gap)
+static double leave(floor_case *f, const mor_contact_soil *soil, double speed, kept_soil *kept)
 {
-    double face[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
     double face_growth[ASSEMBLY_MAX] = {0.0};
-    const mor_contact_rates rates = {f->velocity_gradient, f->density_rate, gap, face, face_growth};
+    const mor_contact_rates rates = {f->velocity_gradient, f->density_rate, kept->gap, kept->face, face_growth};
     floor_record(f)[MOR_RECORD_VELOCITY + f->soil.constants.dimension - 1] = speed;
     mor_soil_contact_add_growth(&f->soil.context, &f->wall, soil);
     mor_soil_contact_sum_gradient(&f->soil.context, &f->wall, soil, &rates);
@@ -231,16 +268,15 @@ static void mirrored_motion_takes_off_the_pressure(void **state)
     for (int dimension = 2; dimension <= 3; ++dimension) {
         floor_case f;
         kept_soil kept;
-        double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
         const mor_contact_soil soil = open_pressed(&f, &kept, dimension, pressure);
-        const double mirrored = leave(&f, &soil, 10.0, gap) * 10.0 * soil.length;
+        const double mirrored = leave(&f, &soil, 10.0, &kept) * 10.0 * soil.length;
         const double *record = floor_record(&f);
         const double stiffness =
             1.5 * record[MOR_RECORD_IMPEDANCE] * record[MOR_RECORD_IMPEDANCE] / record[MOR_RECORD_DENSITY];
         const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
         assert_true(mirrored < 10.0 * soil.length);                                       /* or nothing opens */
         assert_true(fabs(stiffness * 2.0 * gradient * mirrored / pressure - 1.0) < 1e-9); /* rounding */
-        assert_true(fabs(gap[0] + mirrored - 10.0 * soil.length) < 1e-12);
+        assert_true(fabs(kept.gap[0] + mirrored - 10.0 * soil.length) < 1e-12);
         floor_close(&f);
     }
 }
@@ -254,14 +290,13 @@ static void soil_that_keeps_its_volume_keeps_in_touch(void **state)
     for (int dimension = 2; dimension <= 3; ++dimension) {
         floor_case f;
         kept_soil kept;
-        double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
         mor_contact_soil soil = open_pressed(&f, &kept, dimension, 4e3);
         soil.length = 10.0; /* s; or the motion is too small for the pressure */
         const double own = press_with(&f, &soil, 0.0);
         const double gradient = mor_vector_length(f.wall.sums + MOR_KERNEL_SUM_GRADIENT);
         kept.growth[MOR_CONTACT_GROWTH_REST] = -2.0 * gradient * speed; /* by the soil beside */
-        assert_true(leave(&f, &soil, speed, gap) == 1.0);
-        assert_true(gap[0] == 0.0);
+        assert_true(leave(&f, &soil, speed, &kept) == 1.0);
+        assert_true(kept.gap[0] == 0.0);
         assert_true(fabs(press_with(&f, &soil, 0.0) - own) < 0.1 * own);
         kept.growth[MOR_CONTACT_GROWTH_REST] = 0.0;
         assert_true(press_with(&f, &soil, 0.0) < 0.2 * own); /* or the bound on the work tells nothing */
@@ -278,11 +313,9 @@ static void faces_that_are_left_together_share_what_opens(void **state)
     for (int n_faces = 1; n_faces <= 3; ++n_faces) {
         floor_case f;
         kept_soil kept;
-        double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
-        double face[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
         double face_growth[ASSEMBLY_MAX] = {0.0};
         const mor_contact_soil soil = open_pressed(&f, &kept, 2, pressure);
-        const mor_contact_rates rates = {f.velocity_gradient, f.density_rate, gap, face, face_growth};
+        const mor_contact_rates rates = {f.velocity_gradient, f.density_rate, kept.gap, kept.face, face_growth};
         floor_record(&f)[MOR_RECORD_VELOCITY + 1] = 10.0;
         mor_soil_contact_add_growth(&f.soil.context, &f.wall, &soil);
         kept.growth[MOR_CONTACT_GROWTH_FACES] *= n_faces;
@@ -326,16 +359,15 @@ static void face_that_bears_nothing_more_opens(void **state)
     (void)state;
     floor_case f;
     kept_soil kept;
-    double gap[MOR_CONTACT_GAPS * ASSEMBLY_MAX] = {0.0};
     mor_contact_soil soil = open_pressed(&f, &kept, 2, 4e3);
     kept.mean[1] = -2e3;
     soil.mean_stress = kept.mean;
     kept.growth[MOR_CONTACT_GROWTH_REST] = -1e6;
     floor_set_stress(&f, 1.9e3, 0.0);
-    assert_true(leave(&f, &soil, 0.1, gap) == 1.0);
+    assert_true(leave(&f, &soil, 0.1, &kept) == 1.0);
     kept.growth[MOR_CONTACT_GROWTH_FACES] = kept.growth[MOR_CONTACT_GROWTH_LEFT] = 0.0;
     floor_set_stress(&f, 2.1e3, 0.0);
-    assert_true(leave(&f, &soil, 0.1, gap) == 0.0);
+    assert_true(leave(&f, &soil, 0.1, &kept) == 0.0);
     floor_close(&f);
 }
 
@@ -438,6 +470,7 @@ int main(void)
         cmocka_unit_test(gap_lasts_as_long_as_its_face_is_seen),
         cmocka_unit_test(pressure_is_taken_off_before_a_gap_opens),
         cmocka_unit_test(faces_beyond_those_that_are_kept_are_touched),
+        cmocka_unit_test(faces_are_numbered_one_after_the_other),
         cmocka_unit_test(what_is_near_a_face_touches_it),
         cmocka_unit_test(mirrored_motion_takes_off_the_pressure),
         cmocka_unit_test(soil_that_keeps_its_volume_keeps_in_touch),
