@@ -305,6 +305,18 @@ static void warn_of_motion(mor_context *context, const mor_simulation *s)
     }
 }
 
+/* What to do where the computation has given energy. The strain that fits the velocities does more work than the forces
+ * where kernels are not full, in thin and loose flows: the law dissipates more than the motion loses, which may not
+ * change the motion. */
+static const char *advise_on_given_energy(const mor_simulation *s, bool by_method)
+{
+    return by_method && s->soil.settings.scheme.velocity_gradient == 1
+               ? "report these results only where motion and forces are those of a run with "
+                 "numerics.velocity_gradient = \"sum\", whose strain does the work of the forces: in thin and loose "
+                 "flows more is counted as plastic energy than the motion loses; otherwise use a smaller spacing"
+               : "do not report these results; use a smaller numerics.courant or spacing";
+}
+
 /* Plastic strain, the method and boundaries take energy. What gives some raises the energy that changes hands as well,
  * so that the balance may look right. */
 static mor_status warn_of_given_energy(mor_context *context, const mor_simulation *s, int probe)
@@ -317,9 +329,9 @@ static mor_status warn_of_given_energy(mor_context *context, const mor_simulatio
         mor_context_log(context, MOR_LOG_WARNING,
                         MOR_RUN_WARNING_AT_END
                         "the computation has given the soil energy: %s took less than nothing, %.3g %% of all energy "
-                        "that changed hands; at most %g %% is advisable; do not report these results; use a smaller "
-                        "numerics.courant or spacing",
-                        by, 100.0 * share, 100.0 * advisable);
+                        "that changed hands; at most %g %% is advisable; %s",
+                        by, 100.0 * share, 100.0 * advisable,
+                        advise_on_given_energy(s, strncmp(by, "the method", strlen("the method")) == 0));
     }
     return MOR_OK;
 }

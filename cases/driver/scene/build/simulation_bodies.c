@@ -121,8 +121,8 @@ static mor_status explain_thin_body(mor_context *context, const mor_case *c, con
         least = fmin(least, estimate_thickness(rocks->shapes[k], c->dimension));
     }
     return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                    "%s; it is the thinnest of the rocks, which another spacing may generate differently: %.3g m is "
-                    "fine enough for all sizes",
+                    "%s; it is the thinnest of the rocks, and another spacing may generate thinner ones, that one, "
+                    "too: %.3g m is fine enough for all sizes",
                     context->message, 0.98 * least * rocks->sizes[0].diameter / THICKNESS_LEAST);
 }
 
@@ -133,9 +133,7 @@ static mor_status try_thinnest(mor_context *context, const mor_case *c, mor_poin
     double least = INFINITY;
     for (int b = 0; b < c->n_bodies; ++b) {
         const mor_case_body *it = &c->bodies[b];
-        const double thickness = it->packed_diameter > 0.0 && mor_simulation_fill_is_relaxed(it)
-                                     ? estimate_thickness(it->shape, c->dimension)
-                                     : INFINITY;
+        const double thickness = it->packed_diameter > 0.0 ? estimate_thickness(it->shape, c->dimension) : INFINITY;
         if (thickness < least) {
             least = thickness;
             thinnest = it;
