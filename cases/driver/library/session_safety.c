@@ -246,15 +246,18 @@ static mor_status draw_levels(mor_session *session, const level *levels, int n, 
     if (n_points == 0) {
         return MOR_OK;
     }
-    const mor_chart_series series[2] = {{.name = "smallest failing", .x = x, .y = y[1], .n_points = n_points},
-                                        {.name = "largest stable", .x = x, .y = y[0], .n_points = n_points}};
+    const mor_chart_series series[4] = {
+        {.name = "smallest failing", .x = x, .y = y[1], .n_points = n_points},
+        {.name = "largest stable", .x = x, .y = y[0], .n_points = n_points},
+        {.x = x, .y = y[1], .n_points = n_points, .style = MOR_CHART_POINTS, .color_of = 1},
+        {.x = x, .y = y[0], .n_points = n_points, .style = MOR_CHART_POINTS, .color_of = 2}};
     const mor_chart chart = {.title = session->the_case.title,
                              .x_name = "spacing",
                              .x_unit = "m",
                              .y_name = "factor of safety",
                              .y_unit = "1",
                              .series = series,
-                             .n_series = 2,
+                             .n_series = 4,
                              .has_margin = true};
     MOR_TRY(context, mor_durable_file_join(context, path, folder, "spacings.png"));
     MOR_TRY(context, mor_chart_draw(context, &chart, &canvas));

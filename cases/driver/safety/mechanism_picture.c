@@ -265,13 +265,13 @@ static void draw_bar(const sheet *s, const char *name, const char *unit)
     char label[MOR_TICKS_LABEL_BYTES];
     const double prefix = mor_ticks_prefix(unit, s->top, text);
     mor_ticks_label(name, text, label);
-    for (int k = 0; k < STEPS; ++k) {
+    /* From the top, each down to the foot: an edge within a pixel is then blended with the next color. */
+    for (int k = STEPS - 1; k >= 0; --k) {
         double color[3];
         find_color(s, (k + 0.5) / STEPS, color);
         const mor_canvas_pen pen = {.color = {color[0], color[1], color[2]}, .opacity = 1.0};
-        const double height = plot[3] / STEPS;
-        mor_canvas_rectangle(
-            s->canvas, (const double[4]){left, plot[1] + plot[3] - (k + 1) * height, 30.0, overlap * height}, &pen);
+        const double height = (k + 1) * plot[3] / STEPS;
+        mor_canvas_rectangle(s->canvas, (const double[4]){left, plot[1] + plot[3] - height, 30.0, height}, &pen);
     }
     const mor_ticks ticks = mor_ticks_choose(0.0, prefix * s->top, LABEL_TICKS);
     const mor_canvas_font font = {.size = text_size};
