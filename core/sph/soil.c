@@ -136,7 +136,7 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "corrects both to be exact for linear fields, when switched on",
      has_correction},
     {"velocity gradient fit", mor_soil_fit_gradient,
-     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(MOMENTS) | BIT(DENSITY),
+     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(MOMENTS) | BIT(DENSITY) | BIT(FLOW),
      SHARED(CLOSED) | BIT(STRAIN_RATE), BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "makes both those of the linear field that fits the neighbors, when switched on; stores the strain rate", has_fit},
     {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
@@ -274,10 +274,10 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (s->scheme.velocity_gradient == 1) {
+    if (s->scheme.velocity_gradient != 0) {
         MOR_TRY(context, MOR_NEW(context, &soil->continued, padded * 6, "moments continued into walls"));
     }
-    if (mor_soil_has_last_spin(soil) || s->scheme.velocity_gradient == 1) {
+    if (mor_soil_has_last_spin(soil) || s->scheme.velocity_gradient != 0) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
     if (mor_soil_corrects_gradient(soil) || has_angular_momentum(soil)) {

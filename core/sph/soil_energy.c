@@ -107,8 +107,7 @@ static void find_stored(const mor_soil_powers *job, int64_t first, int64_t n, co
     }
 }
 
-/* Stresses at which stored energy is asked for: at the start of the step, at its end, and in the middle less and plus
- * half of what diffusion adds. */
+/* Stresses of stored energy: at start and end of the step, in the middle less and plus half of the diffusion. */
 enum { START, END, LOW, HIGH, N_STRESSES };
 
 /* (E4), (E5): what a stress between start and end of the step does over its strain, less what is stored of it. */

@@ -43,18 +43,19 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
     double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
     double *continued = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->continued);
-    const mor_soil_fit_job job = {.n_particles = soil->set.n_particles,
-                                  .dimension = soil->settings.dimension,
-                                  .volume_factor =
-                                      soil->settings.scheme.lattice_normalization ? soil->lattice_moment : 1.0,
-                                  .at_wall = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_wall),
-                                  .moments = moments,
-                                  .closed = closed,
-                                  .continued = continued,
-                                  .density = mor_view_read(view, MOR_FIELD_DENSITY),
-                                  .gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
-                                  .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
-                                  .strain_rate = mor_view_write(view, MOR_FIELD_STRAIN_RATE)};
+    const mor_soil_fit_job job = {
+        .n_particles = soil->set.n_particles,
+        .dimension = soil->settings.dimension,
+        .volume_factor = soil->settings.scheme.lattice_normalization ? soil->lattice_moment : 1.0,
+        .at_wall = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_wall),
+        .moments = moments,
+        .closed = closed,
+        .continued = continued,
+        .density = mor_view_read(view, MOR_FIELD_DENSITY),
+        .flow = soil->settings.scheme.velocity_gradient == 2 ? mor_view_read(view, MOR_FIELD_FLOW) : NULL,
+        .gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
+        .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
+        .strain_rate = mor_view_write(view, MOR_FIELD_STRAIN_RATE)};
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     mor_soil_copy_moments(context, soil, moments, closed, continued);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {

@@ -173,7 +173,7 @@ bool mor_soil_has_memory(const void *owner);
 /** Whether the velocity gradient is another than the sum whose counterpart the forces are. */
 static inline bool mor_soil_corrects_gradient(const mor_soil *soil)
 {
-    return soil->settings.scheme.gradient_correction || soil->settings.scheme.velocity_gradient == 1;
+    return soil->settings.scheme.gradient_correction || soil->settings.scheme.velocity_gradient != 0;
 }
 
 /** Whether the soil has a law with a field. */

@@ -19,6 +19,8 @@ typedef struct mor_soil_fit_job {
     const double *closed;    /* shape [n_particles, 6]; with what boundaries close of them, 1; read at walls */
     const double *continued; /* shape [n_particles, 6]; what boundaries continue of them, 1; likewise */
     const double *density;   /* shape [n_particles], kg/m3 */
+    const double *flow;      /* shape [n_particles]; 0: at rest, 1: flows, where the rate of shear is the sum's; 1;
+                              * NULL: nowhere */
     double *gradient;        /* shape [n_particles, 9], 1/s; the sums, then the fit */
     double *density_rate;    /* shape [n_particles], kg/m3/s */
     double *strain_rate;     /* shape [n_particles, 6], 1/s; for the reconstruction; NULL: not needed */

@@ -154,16 +154,40 @@ INLINE void store_strain_rate(const vec *moment, const vec *gradient, double *ou
     store_first(out, 6, 6, n_lanes, rate);
 }
 
+/* Fades the rate of shear, the symmetric part of a gradient but for its trace, to that of the sum, both of shape [9],
+ * 1/s, where soil flows. Forces do the work of the sum: the fit does more in thin and loose flows. */
+INLINE void fade_shear(vec flow, const vec *sum, vec *gradient, const int dimension)
+{
+    vec volume = broadcast(0.0);
+    for (int a = 0; a < dimension; ++a) {
+        volume += (sum[4 * a] - gradient[4 * a]) / (double)dimension;
+    }
+    for (int a = 0; a < dimension; ++a) {
+        gradient[4 * a] += flow * ((sum[4 * a] - gradient[4 * a]) - volume);
+        for (int b = a + 1; b < dimension; ++b) {
+            const int ab = 3 * a + b;
+            const int ba = 3 * b + a;
+            const vec change = flow * (0.5 * ((sum[ab] - gradient[ab]) + (sum[ba] - gradient[ba])));
+            gradient[ab] += change;
+            gradient[ba] += change;
+        }
+    }
+}
+
 INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimension)
 {
     const int n_lanes = lanes_of(first, job->n_particles);
     vec moment[6];
     vec closed[6];
     vec continued[6];
+    vec sum[9];
     vec gradient[9];
     vec volume;
     load_moments(job->moments + 6 * first, dimension, moment);
     load_gradient(job->gradient + 9 * first, dimension, gradient);
+    for (int a = 0; a < 9; ++a) {
+        sum[a] = gradient[a];
+    }
     if (job->at_wall[first / MOR_CLUSTER]) {
         load_moments(job->closed + 6 * first, dimension, closed);
         load_moments(job->continued + 6 * first, dimension, continued);
@@ -171,14 +195,17 @@ INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimen
     } else {
         volume = fit_gradient(moment, moment, NULL, gradient, dimension);
     }
+    if (job->strain_rate != NULL) {
+        store_strain_rate(moment, gradient, job->strain_rate + 6 * first, n_lanes, dimension);
+    }
+    if (job->flow != NULL) {
+        fade_shear(load(job->flow + first, 1, 0), sum, gradient, dimension);
+    }
     store_first(job->gradient + 9 * first, 9, dimension == 3 ? 8 : 5, n_lanes, gradient);
     if (dimension == 3) {
         store(job->gradient + 9 * first, 9, 8, n_lanes, gradient[8]);
     }
     store(job->density_rate + first, 1, 0, n_lanes, -load(job->density + first, 1, 0) * job->volume_factor * volume);
-    if (job->strain_rate != NULL) {
-        store_strain_rate(moment, gradient, job->strain_rate + 6 * first, n_lanes, dimension);
-    }
 }
 
 static void fit_clusters(const mor_soil_fit_job *job, int64_t first, int64_t last)

@@ -188,13 +188,13 @@ static const double least_diffusion_of_fit = 0.03;
 
 static void warn_of_fit(const mor_case_reader *reader, const mor_case *c)
 {
-    if (c->n_soils > 0 && c->numerics.velocity_gradient == 1 && c->numerics.stress_diffusion < least_diffusion_of_fit) {
+    if (c->n_soils > 0 && c->numerics.velocity_gradient != 0 && c->numerics.stress_diffusion < least_diffusion_of_fit) {
         mor_context_log(
             reader->context, MOR_LOG_WARNING,
-            "numerics.velocity_gradient = \"fit\" with stress_diffusion below %g: waves at surfaces and walls may gain "
+            "numerics.velocity_gradient = \"%s\" with stress_diffusion below %g: waves at surfaces and walls may gain "
             "energy and grow; set numerics.stress_diffusion to %g or more (0.1 by default), or velocity_gradient = "
             "\"sum\"",
-            least_diffusion_of_fit, least_diffusion_of_fit);
+            c->numerics.velocity_gradient == 1 ? "fit" : "transient", least_diffusion_of_fit, least_diffusion_of_fit);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "core/sph/lanes/soil_lanes.h"
 #include "core/sph/pair/pair.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,17 +39,32 @@ static void fill(world *w)
     }
 }
 
+static const int8_t at_wall[CLUSTERS] = {0, 1, 0};
+
+static mor_soil_fit_job find_job(world *w, int dimension, const double *flow)
+{
+    return (mor_soil_fit_job){.n_particles = N,
+                              .dimension = dimension,
+                              .volume_factor = 0.97,
+                              .at_wall = at_wall,
+                              .moments = w->moments,
+                              .closed = w->closed,
+                              .continued = w->continued,
+                              .density = w->density,
+                              .flow = flow,
+                              .gradient = w->gradient,
+                              .density_rate = w->density_rate,
+                              .strain_rate = w->strain_rate};
+}
+
 /* Soils of two kinds in turn, unlike within each register. */
 static void run(const mor_soil_lanes *lanes, int dimension, const mor_soil_memory_kind kinds[2], world *w)
 {
-    static const int8_t at_wall[CLUSTERS] = {0, 1, 0};
     double of_soil[PADDED * MOR_PAIR_OF_SOIL_SIZE] = {0.0};
     for (int i = 0; i < PADDED; ++i) {
         of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_INDEX] = i % 2;
     }
-    const mor_soil_fit_job fit = {N,           dimension,       0.97,          at_wall,
-                                  w->moments,  w->closed,       w->continued,  w->density,
-                                  w->gradient, w->density_rate, w->strain_rate};
+    const mor_soil_fit_job fit = find_job(w, dimension, w->flow);
     const mor_soil_memory_job memory = {.n_particles = N,
                                         .dimension = dimension,
                                         .length = 0.01,
@@ -90,6 +106,46 @@ static void passes_give_the_same_bits_in_every_instruction_set(void **state)
         }
     }
     assert_null(mor_soil_lanes_select("unknown"));
+}
+
+/* Sum of the rates of change of the volume, 1/s. */
+static double trace_of(const double *gradient, int dimension)
+{
+    return gradient[0] + gradient[4] + (dimension == 3 ? gradient[8] : 0.0);
+}
+
+/* Where soil flows the rate of shear is that of the sum, and partly so in between; rotation, change of volume and what
+ * velocities are reconstructed with are those of the fit. */
+static void shear_fades_to_the_sum_where_soil_flows(void **state)
+{
+    (void)state;
+    static world sum;
+    static world fit;
+    static world faded;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        fill(&sum);
+        fill(&fit);
+        fill(&faded);
+        faded.flow[0] = 1.0;
+        const mor_soil_fit_job without = find_job(&fit, dimension, NULL);
+        const mor_soil_fit_job with = find_job(&faded, dimension, faded.flow);
+        mor_soil_lanes_select(NULL)->fit(&without, 0, CLUSTERS);
+        mor_soil_lanes_select(NULL)->fit(&with, 0, CLUSTERS);
+        assert_memory_equal(faded.density_rate, fit.density_rate, sizeof fit.density_rate);
+        assert_memory_equal(faded.strain_rate, fit.strain_rate, sizeof fit.strain_rate);
+        for (int k = 0; k < N * 9; ++k) {
+            const int i = k / 9;
+            const int a = k % 9 / 3;
+            const int b = k % 3;
+            const double *s = sum.gradient + 9 * i;
+            const double *f = fit.gradient + 9 * i;
+            const double volume = (trace_of(s, dimension) - trace_of(f, dimension)) / dimension;
+            const double change =
+                0.5 * ((s[3 * a + b] - f[3 * a + b]) + (s[3 * b + a] - f[3 * b + a])) - (a == b ? volume : 0.0);
+            const double expected = f[3 * a + b] + (a < dimension && b < dimension ? faded.flow[i] * change : 0.0);
+            assert_true(fabs(faded.gradient[k] - expected) < 1e-14); /* rounding of numbers around 1 */
+        }
+    }
 }
 
 /* The same particles with one kind of soil for all: those of the other kind alone differ. */
@@ -144,6 +200,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_give_the_same_bits_in_every_instruction_set),
+        cmocka_unit_test(shear_fades_to_the_sum_where_soil_flows),
         cmocka_unit_test(each_particle_remembers_by_its_own_soil),
         cmocka_unit_test(nothing_is_written_behind_the_last_particle),
     };

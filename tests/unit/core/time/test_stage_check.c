@@ -39,7 +39,7 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     scene->settings.scheme.soil_hourglass_limit = 0.05;
     scene->settings.scheme.reconstruction = 1;
     scene->settings.scheme.gradient_correction = !is_fitted;
-    scene->settings.scheme.velocity_gradient = is_fitted;
+    scene->settings.scheme.velocity_gradient = is_fitted ? 2 : 0;
     scene->settings.scheme.angular_momentum = true;
     scene->settings.scheme.angular_momentum_by = is_fitted;
     scene->settings.scheme.sleep_after = 1.0;

@@ -118,7 +118,7 @@ static void what_is_not_written_gets_its_default(void **state)
     assert_int_equal(c->numerics.scheme, 0);                   /* moraine */
     assert_int_equal(c->numerics.reconstruction, 1);           /* linear */
     assert_int_equal(c->numerics.stress_diffusion_limiter, 2); /* transient */
-    assert_int_equal(c->numerics.velocity_gradient, 1);        /* fit */
+    assert_int_equal(c->numerics.velocity_gradient, 2);        /* transient */
     assert_true(c->numerics.soil_hourglass == 0.25);           /* exact */
     assert_int_equal(c->numerics.density_reinitialization, 20);
     assert_int_equal(c->numerics.sort_interval, 100);

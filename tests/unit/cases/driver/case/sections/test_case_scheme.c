@@ -72,7 +72,7 @@ static void the_scheme_of_the_source_has_none_of_our_terms(void **state)
     n = &f->second.numerics;
     assert_true(n->soil_hourglass > 0.0 && n->lattice_normalization && n->angular_momentum && n->separation_memory);
     assert_true(n->wall_normals == 1 && n->reconstruction == 1 && n->stress_diffusion_limiter == 2);
-    assert_true(n->velocity_gradient == 1 && n->gravity_ramp_form == 1 && n->angular_momentum_by == 1);
+    assert_true(n->velocity_gradient == 2 && n->gravity_ramp_form == 1 && n->angular_momentum_by == 1);
     assert_true(n->coulomb_tension == 1 && n->courant == 0.6 && n->body_courant == 0.5);
     assert_int_equal(count_unlike(&f->first, &f->second), 14); /* those above, and the scheme itself */
 }
