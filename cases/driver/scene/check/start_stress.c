@@ -150,7 +150,7 @@ static void warn_of_softness(mor_context *context, const mor_case_soil *it, poin
     } else {
         mor_context_log(context, MOR_LOG_WARNING,
                         "soil '%s' is so soft that its own weight compresses it by about %.3g %% (rho g H / E); below "
-                        "1 %% is advisable: raise %s to %s or more",
+                        "1 %% is advisable: raise %s to %s or more; a bare number is in Pa",
                         it->name, 100.0 * weight / modulus, mor_params_stiffness_key(parameters), needed);
     }
 }
