@@ -51,8 +51,8 @@ static double find_share(const scene *it)
  * of the soil sleeps and gives nothing way. The toe is that of soil five rows thick, which gravity that is a
  * ten-thousandth larger or smaller and steps 4 % longer or shorter move from 0.764 to 0.771 m, and the kinetic energy
  * by 0.6 %; which grain is first where the flow is two rows thick is chance (0.884 to 0.944 m). The weight on the floor
- * swings with waves in the bed by 2 %; its mean is that of the soil, but for 1 % where waves have stopped at chance, for
- * soil keeps the stress with which it falls asleep. */
+ * swings with waves in the bed by 2 %; its mean is that of the soil, but for 1 % where waves have stopped at chance,
+ * for soil keeps the stress with which it falls asleep. */
 static void flow_does_not_notice_that_soil_beside_it_sleeps(void **state)
 {
     static const char *const names[] = {"toe", "center", "height", "motion"};
