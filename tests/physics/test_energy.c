@@ -255,6 +255,35 @@ static void energy_of_a_collapse_is_accounted_for(void **state)
     check_case(collapse, nothing, 0.6);
 }
 
+/* A heap of sand that flows down a slope, at last a few particles thick. */
+static const char slope[] =
+    "dimension = 2; spacing = '10 mm'; gravity = ('5 m/s2', '-8.66 m/s2', 0); end = '0.6 s';"
+    "domain = { min = ('-0.5 m', '-0.2 m', '-1 m'); max = ('4 m', '0.5 m', '1 m'); };"
+    "soil = ( { name = 'sand'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('0.2 m', '0.15 m'); };"
+    "  material = { model = 'mohr_coulomb'; density = '1600 kg/m3'; youngs_modulus = '1 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '25 deg'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'rough';"
+    "    shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; } );"
+    "probes = ( { type = 'plastic_energy'; }, { type = 'numerical_dissipation'; }, { type = 'energy_balance'; } );";
+
+static const char *const fitted[] = {"numerics.velocity_gradient=fit", NULL};
+
+/* What the law dissipates is what the motion loses, but for a few percent that the method takes: 2 % here. With the
+ * strain of the fit everywhere the law dissipates more, and the method seems to give the difference: 7 %. */
+static void flow_down_a_slope_is_given_no_energy(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        scene *it = make(slope, k == 0 ? nothing : fitted);
+        scene_advance(it, 0.6);
+        const double share = scene_probe(it, "numerical_dissipation") / scene_probe(it, "plastic_energy");
+        print_message("taken by the method over plastic energy: %.4f\n", share);
+        assert_true(k == 0 ? share > 0.0 && share < 0.05 : share < -0.04); /* or else the test tells nothing */
+        scene_expect_near("balance", scene_probe(it, "energy_balance"), 1.0, share_astray);
+        scene_free(it);
+    }
+}
+
 static const char impact[] =
     "dimension = 2; spacing = '10 mm'; gravity = ('0 m/s2', '0 m/s2'); end = '50 ms';"
     "domain = { min = ('-1 m', '-1 m', '-1 m'); max = ('1 m', '1 m', '1 m'); };"
@@ -373,6 +402,7 @@ int main(void)
         cmocka_unit_test(friction_of_a_sliding_block_is_lost_at_the_floor),
         cmocka_unit_test(piston_gives_what_its_force_does_along_its_way),
         cmocka_unit_test(energy_of_a_collapse_is_accounted_for),
+        cmocka_unit_test(flow_down_a_slope_is_given_no_energy),
         cmocka_unit_test(rock_that_soil_hits_gets_what_the_soil_did),
         cmocka_unit_test(driven_rock_gives_what_its_force_does_along_its_way),
     };
