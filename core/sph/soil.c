@@ -72,11 +72,8 @@ static bool has_audit(const void *owner)
 #define GAPS (BIT(GAP) | BIT(GAP_FACE) | BIT(FACE_GROWTH))
 #define CALM (BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_STRESS) | BIT(QUIET_SPAN))
 
-/* What soil that is not released keeps, beside its state. */
-#define STANDING                                                                                                       \
-    (BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(DENSITY_RATE) | BIT(STRESS) | BIT(STRAIN_RATE) |               \
-     BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS) | BIT(HOURGLASS_MOMENT) | BIT(SPIN_STRESS) | BIT(SEPARATION) |      \
-     GAPS | CALM)
+#define OR_BIT(name) | BIT(name)
+#define STANDING (0 MOR_SOIL_STANDING(OR_BIT))
 
 static const mor_stage soil_stages[] = {
     {"first drift", mor_soil_drift_first, BIT(VELOCITY) | BIT(DENSITY_RATE), 0,

@@ -200,6 +200,13 @@ static inline const mor_soil_kind *mor_soil_kind_of(const mor_soil *soil, int64_
 /** Part of gravity that acts in a step, 1: that of the ramp at the middle of the step. */
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
 
+/** What soil that is not released keeps, beside its state: its fields, one after the other. */
+#define MOR_SOIL_STANDING(FIELD)                                                                                       \
+    FIELD(POSITION)                                                                                                    \
+    FIELD(VELOCITY) FIELD(DENSITY) FIELD(DENSITY_RATE) FIELD(STRESS) FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) \
+        FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE)       \
+            FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
+
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)
 {

@@ -43,16 +43,11 @@ mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_p
     return is_held || mor_soil_has_quiet(soil) ? mor_sleep_init(context, &soil->sleep, n_particles) : MOR_OK;
 }
 
-/* What a particle that is not released keeps, beside its state. */
-static const int standing[] = {
-    MOR_FIELD_POSITION,    MOR_FIELD_VELOCITY,         MOR_FIELD_DENSITY,     MOR_FIELD_DENSITY_RATE,
-    MOR_FIELD_STRESS,      MOR_FIELD_STRAIN_RATE,      MOR_FIELD_MEAN_STRESS, MOR_FIELD_FLOW,
-    MOR_FIELD_HOURGLASS,   MOR_FIELD_HOURGLASS_MOMENT, MOR_FIELD_SPIN_STRESS, MOR_FIELD_SEPARATION,
-    MOR_FIELD_GAP,         MOR_FIELD_GAP_FACE,         MOR_FIELD_FACE_GROWTH, MOR_FIELD_QUIET,
-    MOR_FIELD_QUIET_PLACE, MOR_FIELD_QUIET_STRESS,     MOR_FIELD_QUIET_SPAN};
+#define NUMBER(name) MOR_FIELD_##name,
+static const int standing[] = {MOR_SOIL_STANDING(NUMBER)};
 enum { STANDING = sizeof standing / sizeof *standing };
 
-/* Its arrays: those of the fields, as a view gives them, then those of the state. */
+/* Arrays of what stands: those of the fields, as a view gives them, then those of the state. */
 static int list_standing(const mor_soil *soil, double *const *data, double *const *state, mor_hold_array *arrays)
 {
     for (int k = 0; k < STANDING; ++k) {
