@@ -371,8 +371,8 @@ static mor_status check_region(mor_context *context, const mor_case *the_case, i
     const mor_case_soil *it = &the_case->soils[soil];
     MOR_CHECK(context, points->n_points > 0, MOR_ERROR_CONFIG,
               "%s:%d: found soil '%s' without a single particle at spacing %g m; allowed are regions of at least one "
-              "lattice point inside the domain; make the region larger, the spacing smaller (a bare number is in m), or "
-              "move the domain",
+              "lattice point inside the domain; make the region larger, the spacing smaller (a bare number is in m), "
+              "or move the domain",
               it->place.file, it->place.line, it->name, the_case->spacing);
     MOR_TRY(context, check_rest(context, the_case, soil));
     if (is_bounded(it->shape, the_case->dimension)) {
