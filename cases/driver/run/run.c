@@ -310,7 +310,7 @@ static void warn_of_motion(mor_context *context, const mor_simulation *s)
  * change the motion. */
 static const char *advise_on_given_energy(const mor_simulation *s, bool by_method)
 {
-    return by_method && s->soil.settings.scheme.velocity_gradient != 0
+    return by_method && s->soil.settings.scheme.velocity_gradient == 1
                ? "report these results only where motion and forces are those of a run with "
                  "numerics.velocity_gradient = \"sum\", whose strain does the work of the forces: in thin and loose "
                  "flows more is counted as plastic energy than the motion loses; otherwise use a smaller spacing"

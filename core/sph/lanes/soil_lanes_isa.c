@@ -154,6 +154,23 @@ INLINE void store_strain_rate(const vec *moment, const vec *gradient, double *ou
     store_first(out, 6, 6, n_lanes, rate);
 }
 
+/* Takes from the sum, shape [9], 1/s, what it makes of the rotation of a fitted gradient, W M with the moments of both,
+ * shape [6], 1: its symmetric part is no strain. */
+INLINE void leave_strain(const vec *gradient, const vec *moment, vec *sum, const int dimension)
+{
+    for (int a = 0; a < dimension; ++a) {
+        vec spin[3];
+        vec turned[3];
+        for (int b = 0; b < 3; ++b) {
+            spin[b] = b < dimension ? 0.5 * (gradient[3 * a + b] - gradient[3 * b + a]) : broadcast(0.0);
+        }
+        apply_symmetric(moment, spin, turned, dimension);
+        for (int b = 0; b < dimension; ++b) {
+            sum[3 * a + b] -= turned[b];
+        }
+    }
+}
+
 /* Fades the rate of shear, the symmetric part of a gradient but for its trace, to that of the sum, both of shape [9],
  * 1/s, where soil flows. Forces do the work of the sum: the fit does more in thin and loose flows. */
 INLINE void fade_shear(vec flow, const vec *sum, vec *gradient, const int dimension)
@@ -199,6 +216,7 @@ INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimen
         store_strain_rate(moment, gradient, job->strain_rate + 6 * first, n_lanes, dimension);
     }
     if (job->flow != NULL) {
+        leave_strain(gradient, job->at_wall[first / MOR_CLUSTER] ? closed : moment, sum, dimension);
         fade_shear(load(job->flow + first, 1, 0), sum, gradient, dimension);
     }
     store_first(job->gradient + 9 * first, 9, dimension == 3 ? 8 : 5, n_lanes, gradient);

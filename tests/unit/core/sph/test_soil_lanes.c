@@ -114,6 +114,21 @@ static double trace_of(const double *gradient, int dimension)
     return gradient[0] + gradient[4] + (dimension == 3 ? gradient[8] : 0.0);
 }
 
+/* The gradient of a sum without what it makes of the rotation of a fit: s - W M. */
+static void find_strain_of_sum(const world *w, const double *fit, int i, int dimension, double *s)
+{
+    const double *m = (at_wall[i / MOR_CLUSTER] ? w->closed : w->moments) + 6 * i;
+    const double full[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]}; /* xx, yy, zz, xy, yz, zx */
+    memcpy(s, w->gradient + 9 * i, 9 * sizeof *s);
+    for (int a = 0; a < dimension; ++a) {
+        for (int b = 0; b < dimension; ++b) {
+            for (int c = 0; c < dimension; ++c) {
+                s[3 * a + b] -= 0.5 * (fit[3 * a + c] - fit[3 * c + a]) * full[3 * c + b];
+            }
+        }
+    }
+}
+
 /* Where soil flows the rate of shear is that of the sum, and partly so in between; rotation, change of volume and what
  * velocities are reconstructed with are those of the fit. */
 static void shear_fades_to_the_sum_where_soil_flows(void **state)
@@ -137,8 +152,9 @@ static void shear_fades_to_the_sum_where_soil_flows(void **state)
             const int i = k / 9;
             const int a = k % 9 / 3;
             const int b = k % 3;
-            const double *s = sum.gradient + 9 * i;
+            double s[9];
             const double *f = fit.gradient + 9 * i;
+            find_strain_of_sum(&sum, f, i, dimension, s);
             const double volume = (trace_of(s, dimension) - trace_of(f, dimension)) / dimension;
             const double change =
                 0.5 * ((s[3 * a + b] - f[3 * a + b]) + (s[3 * b + a] - f[3 * b + a])) - (a == b ? volume : 0.0);
