@@ -48,11 +48,10 @@ static double find_share(const scene *it)
 }
 
 /* Soil that sleeps had moved by less than 0.4 mm in 20 ms: the center of mass may be off by a quarter of that, as half
- * of the soil sleeps and gives nothing way. The toe is that of soil five rows thick, which gravity that is a
- * ten-thousandth larger or smaller and steps 4 % longer or shorter move from 0.764 to 0.771 m, and the kinetic energy
- * by 0.6 %; which grain is first where the flow is two rows thick is chance (0.884 to 0.944 m). The weight on the floor
- * swings with waves in the bed by 2 %; its mean is that of the soil, but for 1 % where waves have stopped at chance,
- * for soil keeps the stress with which it falls asleep. */
+ * of the soil sleeps and gives nothing way. The toe is that of soil five rows thick, which steps 4 %
+ * longer or shorter move from 0.782 to 0.794 m, and the kinetic energy by 4 %; which grain is first where the flow is
+ * two rows thick is chance. The weight on the floor swings with waves in the bed by 2 %; its mean is that of the soil,
+ * but for 1 % where waves have stopped at chance, for soil keeps the stress with which it falls asleep. */
 static void flow_does_not_notice_that_soil_beside_it_sleeps(void **state)
 {
     static const char *const names[] = {"toe", "center", "height", "motion"};
@@ -76,10 +75,10 @@ static void flow_does_not_notice_that_soil_beside_it_sleeps(void **state)
         scene_free(it);
     }
     assert_true(found[0][TOE] > 0.6);
-    scene_expect_near("toe, m", found[1][TOE], found[0][TOE], 0.01);
+    scene_expect_near("toe, m", found[1][TOE], found[0][TOE], 0.02);
     scene_expect_near("center of mass, m", found[1][CENTER], found[0][CENTER], 1e-4);
     scene_expect_near("height of the center of mass, m", found[1][HEIGHT], found[0][HEIGHT], 1e-4);
-    scene_expect_near("kinetic energy / that without sleep", found[1][MOTION] / found[0][MOTION], 1.0, 0.01);
+    scene_expect_near("kinetic energy / that without sleep", found[1][MOTION] / found[0][MOTION], 1.0, 0.03);
     const double whole = 1600.0 * 9.81 * (4.0 * 0.3 + 0.4 * 0.6);
     scene_expect_near("mean weight on the floor without sleep / that of the soil", weight[0] / whole, 1.0, 0.005);
     scene_expect_near("the same with sleep", weight[1] / whole, 1.0, 0.01);
