@@ -156,7 +156,7 @@ INLINE void store_strain_rate(const vec *moment, const vec *gradient, double *ou
 
 /* Takes from the sum, shape [9], 1/s, what it makes of the rotation of a fitted gradient, W M with the moments of both,
  * shape [6], 1: its symmetric part is no strain. */
-INLINE void leave_strain(const vec *gradient, const vec *moment, vec *sum, const int dimension)
+INLINE void remove_rotation(const vec *gradient, const vec *moment, vec *sum, const int dimension)
 {
     for (int a = 0; a < dimension; ++a) {
         vec spin[3];
@@ -216,7 +216,7 @@ INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimen
         store_strain_rate(moment, gradient, job->strain_rate + 6 * first, n_lanes, dimension);
     }
     if (job->flow != NULL) {
-        leave_strain(gradient, job->at_wall[first / MOR_CLUSTER] ? closed : moment, sum, dimension);
+        remove_rotation(gradient, job->at_wall[first / MOR_CLUSTER] ? closed : moment, sum, dimension);
         fade_shear(load(job->flow + first, 1, 0), sum, gradient, dimension);
     }
     store_first(job->gradient + 9 * first, 9, dimension == 3 ? 8 : 5, n_lanes, gradient);
