@@ -176,7 +176,7 @@ static void rotation_strains_no_soil_that_flows(void **state)
             const double spin[3] = {dimension == 3 ? 0.7 : 0.0, dimension == 3 ? -0.4 : 0.0, 1.1};
             const double turn[9] = {0.0, -spin[2], spin[1], spin[2], 0.0, -spin[0], -spin[1], spin[0], 0.0};
             const double *m = (at_wall[i / MOR_CLUSTER] ? w.closed : w.moments) + 6 * i;
-            const double full[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]}; /* xx, yy, zz, xy, yz, zx */
+            const double full[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]};
             w.flow[i] = 1.0;
             for (int k = 0; k < 9; ++k) {
                 w.gradient[9 * i + k] = 0.0;
