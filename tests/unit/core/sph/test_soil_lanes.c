@@ -114,11 +114,19 @@ static double trace_of(const double *gradient, int dimension)
     return gradient[0] + gradient[4] + (dimension == 3 ? gradient[8] : 0.0);
 }
 
+/* The moments that the fit of a particle divides by, shape [3, 3]. */
+static void fill_moment(const world *w, int i, double *full)
+{
+    const double *m = (at_wall[i / MOR_CLUSTER] ? w->closed : w->moments) + 6 * i;
+    const double rows[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]}; /* xx, yy, zz, xy, yz, zx */
+    memcpy(full, rows, sizeof rows);
+}
+
 /* The gradient of a sum without what it makes of the rotation of a fit: s - W M. */
 static void find_strain_of_sum(const world *w, const double *fit, int i, int dimension, double *s)
 {
-    const double *m = (at_wall[i / MOR_CLUSTER] ? w->closed : w->moments) + 6 * i;
-    const double full[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]}; /* xx, yy, zz, xy, yz, zx */
+    double full[9];
+    fill_moment(w, i, full);
     memcpy(s, w->gradient + 9 * i, 9 * sizeof *s);
     for (int a = 0; a < dimension; ++a) {
         for (int b = 0; b < dimension; ++b) {
@@ -164,8 +172,8 @@ static void shear_fades_to_the_sum_where_soil_flows(void **state)
     }
 }
 
-/* Soil that turns as a whole is not sheared, however much it flows and wherever its neighbors are: the sum of a rotation
- * W is W M, at boundaries with the moments that these close. */
+/* Soil that turns as a whole is not sheared, however much it flows and wherever its neighbors are: the sum of a
+ * rotation W is W M, at boundaries with the moments that these close. */
 static void rotation_strains_no_soil_that_flows(void **state)
 {
     (void)state;
@@ -175,8 +183,8 @@ static void rotation_strains_no_soil_that_flows(void **state)
         for (int i = 0; i < N; ++i) {
             const double spin[3] = {dimension == 3 ? 0.7 : 0.0, dimension == 3 ? -0.4 : 0.0, 1.1};
             const double turn[9] = {0.0, -spin[2], spin[1], spin[2], 0.0, -spin[0], -spin[1], spin[0], 0.0};
-            const double *m = (at_wall[i / MOR_CLUSTER] ? w.closed : w.moments) + 6 * i;
-            const double full[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]};
+            double full[9];
+            fill_moment(&w, i, full);
             w.flow[i] = 1.0;
             for (int k = 0; k < 9; ++k) {
                 w.gradient[9 * i + k] = 0.0;
