@@ -27,7 +27,10 @@ OF_PROGRAM = ("tests/", "cases/driver/command/", "cases/driver/main.c")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+|\bwith -[a-z]\b|"
                     r"\bmoraine (?:run|render|list|check|explain|relax|preview)\b")
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
-LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s#]*)(?:#([^)\s]*))?\)")
+HEADING = re.compile(r"^#{1,6} +(.*)$", re.MULTILINE)
+CODE_BLOCK = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+TEMPLATE = re.compile(r"\{'\w+': ")  # what a script that fills in numbers leaves behind
 
 
 def check_lines(path, text):
@@ -64,14 +67,30 @@ def check_messages(path, text):
                    "serves other programs too: say what to do without it")
 
 
+def find_anchors(text):
+    """The names by which a page's headings are linked to, as the renderers of Markdown make them."""
+    count = {}
+    for heading in HEADING.findall(CODE_BLOCK.sub("", text)):
+        heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+        name = re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+        number = count.get(name, 0)
+        count[name] = number + 1
+        yield f"{name}-{number}" if number else name
+
+
 def check_links(root, path, text):
     for match in LINK.finditer(text):
-        target = match.group(1)
+        target, anchor = match.groups()
         if re.match(r"[a-z]+:", target):
             continue
-        place = posixpath.normpath(posixpath.join(posixpath.dirname(path), target))
+        line = source.line_of(text, match.start())
+        place = posixpath.normpath(posixpath.join(posixpath.dirname(path), target)) if target else path
         if not os.path.exists(os.path.join(root, place)):
-            yield f"{path}:{source.line_of(text, match.start())}: the link {target} leads nowhere; there is no {place}"
+            yield f"{path}:{line}: the link {target} leads nowhere; there is no {place}"
+        elif anchor and place.endswith(".md") and anchor not in find_anchors(source.read_text(root, place)):
+            yield f"{path}:{line}: the link {target}#{anchor} leads nowhere; no heading of {place} has that name"
+    for match in TEMPLATE.finditer(text):
+        yield f"{path}:{source.line_of(text, match.start())}: '{match.group(0)}' is of a script; write the number"
 
 
 def check(root):

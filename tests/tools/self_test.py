@@ -4,17 +4,14 @@
 folder with one defect."""
 
 import os
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import check_calls
 import check_docstrings
 import check_headers
 import check_includes
-import check_reference
 import check_rooms_drawing
 import check_sizes
 import check_stages
@@ -22,91 +19,11 @@ import check_symbols
 import check_tests
 import check_roles
 import check_sessions
-import check_text
 import source
+from self_test_sample import GOOD, TAG, Sample, header
+from self_test_pages import Reference, Text  # found by unittest by their names here
 
 COMPILER, CTEST = "cc", "ctest"
-TAG = "/* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.\n * SPDX-License-Identifier: Apache-2.0 */\n"
-
-
-def header(path, body):
-    guard = check_headers.expected_guard(path)
-    return f"{TAG}#ifndef {guard}\n#define {guard}\n\n{body}\n#endif\n"
-
-
-GOOD = {
-    "CMakeLists.txt": """# Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
-# SPDX-License-Identifier: Apache-2.0
-mor_add_room(core/base)
-mor_add_room(core/particle DEPENDS core/base)
-mor_add_room(core/material/kit DEPENDS core/base)
-mor_add_room(core/material DEPENDS core/base core/material/kit)
-mor_add_room(core/io DEPENDS core/base core/material DOORS hdf5)
-mor_add_room(materials DEPENDS core/base core/material/kit FUSED)
-mor_add_room(materials/frame DEPENDS core/base core/material/kit)
-mor_add_room(bodies DEPENDS core/base)
-mor_add_room(cases/driver/case DEPENDS core/base)
-""",
-    "core/base/context.h": header("core/base/context.h", "typedef struct mor_context { int n; } mor_context;\n"),
-    "core/base/length.h": header("core/base/length.h", """#include "core/base/context.h"
-
-/** Returns the length of a vector.
- *  @param a [in]  shape [3], unit m
- *  Returns: unit m. */
-double mor_length(const double *a);
-"""),
-    "core/base/length.c": TAG + """#include "core/base/length.h"
-
-#include <math.h>
-
-double mor_length(const double *a)
-{
-    /* "{" in a comment and in a string must not matter: { */
-    const char *const brace = "{";
-    return sqrt(a[0] * a[0]) * (brace[0] == '{');
-}
-""",
-    "core/particle/set.h": header("core/particle/set.h", '#include "core/base/context.h"\n'),
-    "materials/clay.c": TAG + '#include "core/base/context.h"\n',
-    "tests/unit/core/base/test_length.c": TAG + """#include "core/base/length.h"
-
-static void length_is_positive(void **state)
-{
-    (void)state;
-    assert_true(1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(length_is_positive)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
-""",
-    "README.md": "# Moraine\n\nSee [the code](core/base/length.c) and [Debian](https://www.debian.org).\n",
-}
-
-
-class Sample(unittest.TestCase):
-    """A small good project, changed by each test."""
-
-    def setUp(self):
-        self.root = tempfile.mkdtemp(prefix="moraine_checks_")
-        self.addCleanup(shutil.rmtree, self.root)
-        for path, text in GOOD.items():
-            self.write(path, text)
-
-    def write(self, path, text):
-        place = os.path.join(self.root, path)
-        os.makedirs(os.path.dirname(place), exist_ok=True)
-        with open(place, "w", encoding="utf-8") as file:
-            file.write(text)
-
-    def expect(self, problems, *fragments):
-        """Exactly one problem, whose message holds all fragments; none when no fragment is given."""
-        problems = list(problems)
-        self.assertEqual(len(problems), 1 if fragments else 0, problems)
-        for fragment in fragments:
-            self.assertIn(fragment, problems[0])
 
 
 class Includes(Sample):
@@ -461,100 +378,6 @@ class RoomsDrawing(Sample):
     def test_implied_arrows_are_left_out(self):
         rooms = {"core/a": [], "core/b": ["core/a"], "core/c": ["core/a", "core/b"]}
         self.assertEqual(check_rooms_drawing.reduce(rooms), {"core/a": [], "core/b": ["core/a"], "core/c": ["core/b"]})
-
-
-class Text(Sample):
-    def refuse(self, path, text, *fragments):
-        self.write(path, text)
-        self.expect(check_text.check(self.root), path, *fragments)
-
-    def test_options_of_the_program_in_messages_of_the_library_are_refused(self):
-        for message, found in (("add --resume to go on", "--resume"), ("choose another one with -o", "with -o"),
-                               ("see moraine list fields", "moraine list")):
-            with self.subTest(message):
-                code = TAG + f'/* as with -o */\nconst char *const text = "{message}";\n'
-                self.write("cases/driver/command/command.c", code)
-                self.refuse("core/base/bad.c", code, ":4", f"'{found}' is of the program")
-
-    def test_good_source_passes(self):
-        self.expect(check_text.check(self.root))
-
-    def test_missing_tag_is_refused(self):
-        self.refuse("core/base/bad.c", "int a;\n", "no licence tag")
-
-    def test_layout_is_checked(self):
-        for line, fragment in (("int a; //" + "x" * 112, "121 characters"), ("\tint a;", "a tab"),
-                               ("int a; ", "spaces at")):
-            with self.subTest(fragment):
-                self.refuse("core/base/bad.c", TAG + line + "\n", ":3", fragment)
-
-    def test_last_line_must_end(self):
-        self.refuse("core/base/bad.c", TAG + "int a;", "no line break")
-
-    def test_input_that_is_malformed_on_purpose_passes(self):
-        self.write("tests/regression/bad_cases/cut.cfg", "title = ")
-        self.write("tests/fuzz/corpus/case/cut.cfg", "TODO")
-        self.expect(check_text.check(self.root))
-
-    def test_paths_of_a_machine_are_refused(self):
-        for word in ("/home/me/x.md", "../shared/x.md", "/root/x.md"):
-            with self.subTest(word):
-                self.refuse("docs/bad.md", f"See {word}.\n", "docs/bad.md:1")
-
-    def test_optional_data_outside_may_be_named_in_tests(self):
-        self.write("tests/physics/test_a.c", TAG + '/* "../shared/data" */\n')
-        self.expect(check_text.check(self.root))
-
-    def test_unfinished_work_is_refused(self):
-        for word in ("TODO", "FIXME", "a stub", "placeholder", "not implemented", "not yet implemented", "@@ROWS@@"):
-            with self.subTest(word):
-                self.refuse("core/base/bad.c", f"{TAG}/* {word} */\n", "unfinished")
-
-    def test_dead_link_is_refused(self):
-        self.refuse("docs/bad.md", "[there](../core/base/none.c#top)\n", "leads nowhere", "core/base/none.c")
-
-
-class Reference(Sample):
-    """A program of a few lines stands for moraine: it prints what it is asked to list."""
-
-    def setUp(self):
-        super().setUp()
-        self.write("moraine", "#!/bin/sh\nprintf '%s of a set\\nlast line\\n' \"$2\"\n")
-        self.program = os.path.join(self.root, "moraine")
-        os.chmod(self.program, 0o755)
-        check_reference.write(self.root, self.program)
-
-    def check(self):
-        return check_reference.check(self.root, self.program)
-
-    def change(self, page, old, new):
-        path = f"{check_reference.FOLDER}/{page}"
-        text = source.read_text(self.root, path)
-        self.assertIn(old, text)
-        self.write(path, text.replace(old, new))
-
-    def test_pages_just_written_pass(self):
-        self.expect(self.check())
-
-    def test_missing_page_is_refused(self):
-        os.remove(os.path.join(self.root, check_reference.FOLDER, "probes.md"))
-        self.expect(self.check(), "docs/reference/probes.md:1", "missing")
-
-    def test_changed_word_is_refused(self):
-        self.change("case_file.md", "keys of", "lock of")
-        self.expect(self.check(), "docs/reference/case_file.md:1", "'lock of a set'", "'keys of a set'")
-
-    def test_lost_line_is_refused(self):
-        self.change("fields.md", "last line\n", "")
-        self.expect(self.check(), "docs/reference/fields.md", "the program prints 'last line'")
-
-    def test_line_too_many_is_refused(self):
-        self.change("case_file.md", "last line\n", "last line\nmore\n")
-        self.expect(self.check(), "docs/reference/case_file.md:3", "the page says 'more'")
-
-    def test_changed_title_is_refused(self):
-        self.change("materials.md", "# Material models", "# Models")
-        self.expect(self.check(), "docs/reference/materials.md:1")
 
 
 class Tests(Sample):
