@@ -321,7 +321,7 @@ static mor_status sand_init_state(const mor_material_instance *instance, const m
 
 /* Bulk modulus at a pressure: the linear part of (H4) in isotropic compression, times m_R (or m_T where that is more)
  * after a reversal of strain. */
-static double find_bulk(const sand *m, double pressure, double void_ratio)
+static MOR_LANES_INLINE double find_bulk(const sand *m, double pressure, double void_ratio)
 {
     const double stiffest = m->reversal > m->turn ? m->reversal : m->turn;
     const double factor = m->range > 0.0 && stiffest > 1.0 ? stiffest : 1.0;
@@ -333,13 +333,23 @@ static double find_bulk(const sand *m, double pressure, double void_ratio)
  * bear, the modulus falls with pressure, and that at the pressure of the soil may be the larger one. */
 static mor_status sand_wave_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed)
 {
-    const sand *m = instance->data;
-    for (int64_t i = 0; i < batch->n; ++i) {
-        const double p = mor_invariant_i1(mor_symmetric_read(batch->stress_in + 6 * i)) * (-1.0 / 3.0);
-        const double e = batch->state_in[STATE_VOID_RATIO][i];
-        const double at_reference = find_bulk(m, p > m->wave_pressure ? p : m->wave_pressure, e);
-        const double here = find_bulk(m, p > 0.0 ? p : 0.0, e);
-        speed[i] = sqrt((here > at_reference ? here : at_reference) / batch->density[i]);
+    const sand m = *(const sand *)instance->data;
+    for (int64_t first = 0; first < batch->n; first += MOR_LANES) {
+        const int64_t n = batch->n - first < MOR_LANES ? batch->n - first : MOR_LANES;
+        double stress[6][MOR_LANES] = {0};
+        double e[MOR_LANES] = {0};
+        double bulk[MOR_LANES];
+        load(batch->stress_in + 6 * first, n, 6, stress);
+        load(batch->state_in[STATE_VOID_RATIO] + first, n, 1, &e);
+        for (int lane = 0; lane < MOR_LANES; ++lane) {
+            const double p = (stress[0][lane] + stress[1][lane] + stress[2][lane]) * (-1.0 / 3.0);
+            const double at_reference = find_bulk(&m, p > m.wave_pressure ? p : m.wave_pressure, e[lane]);
+            const double here = find_bulk(&m, p > 0.0 ? p : 0.0, e[lane]);
+            bulk[lane] = here > at_reference ? here : at_reference;
+        }
+        for (int64_t lane = 0; lane < n; ++lane) {
+            speed[first + lane] = sqrt(bulk[lane] / batch->density[first + lane]);
+        }
     }
     return MOR_OK;
 }
@@ -465,8 +475,10 @@ static const mor_schema PARAMETERS[] = {
         {MOR_POSITIVE_ENTRY("minimum_pressure", "Pa", INFINITY,
                             "pressure p_t that the law adds to that of the soil; it keeps stiffness at a free surface"),
          .default_value = 100.0},
-    [WAVE_PRESSURE] = {MOR_POSITIVE_ENTRY("wave_pressure", "Pa", INFINITY,
-                                          "largest pressure expected: the time step follows from the stiffness there"),
+    [WAVE_PRESSURE] = {MOR_POSITIVE_ENTRY(
+                           "wave_pressure", "Pa", INFINITY,
+                           "usual pressure: dissipation, stress diffusion and the longest step follow from the "
+                           "stiffness there; under more pressure steps are shorter"),
                        .default_value = 1e5},
     [INTEGRATION] = MOR_INTEGRATION_SCHEMAS("explicit|implicit|bdf", 1e-4, 1.0, 10000.0),
     [N_PARAMETERS] = {.key = NULL},
@@ -492,7 +504,7 @@ const mor_material MOR_ISA_NAME(mor_hypoplastic_sand) = {
     .text = "sand whose stiffness and strength follow from pressure and void ratio, with intergranular strain",
     .literature = "von Wolffersdorff (1996); Niemunis and Herle (1997)",
     .form = MOR_MATERIAL_RATE,
-    .capabilities = MOR_MATERIAL_PATH_DEPENDENT,
+    .capabilities = MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_STIFFENS,
     .parameters = PARAMETERS,
     .state = STATE,
     .operations =

@@ -372,7 +372,8 @@ const mor_material MOR_ISA_NAME(mor_modified_cam_clay) = {
     .text = "clay of the critical-state kind: ellipse, hardening by compression, bulk modulus that grows with pressure",
     .literature = "Roscoe and Burland (1968); Borja and Lee (1990)",
     .form = MOR_MATERIAL_RATE,
-    .capabilities = MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_DISSIPATION | MOR_MATERIAL_EXACT_SCALING,
+    .capabilities = MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_DISSIPATION | MOR_MATERIAL_EXACT_SCALING |
+                    MOR_MATERIAL_STIFFENS,
     .parameters = PARAMETERS,
     .state = STATE,
     .operations =

@@ -325,17 +325,18 @@ static mor_status fill_composite(mor_context *context, composite *it, const mor_
         all &= parts[k]->material->capabilities;
         any |= parts[k]->material->capabilities;
     }
-    it->descriptor = (mor_material){.abi = MOR_MATERIAL_ABI,
-                                    .struct_bytes = sizeof(mor_material),
-                                    .name = it->name,
-                                    .version = "1",
-                                    .text = "several materials, one to a particle",
-                                    .literature = "none",
-                                    .form = MOR_MATERIAL_RATE,
-                                    .capabilities = (all & (MOR_MATERIAL_DISSIPATION | MOR_MATERIAL_EXACT_SCALING)) |
-                                                    (any & (MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_NONLOCAL)),
-                                    .parameters = no_parameters,
-                                    .state = it->state};
+    it->descriptor = (mor_material){
+        .abi = MOR_MATERIAL_ABI,
+        .struct_bytes = sizeof(mor_material),
+        .name = it->name,
+        .version = "1",
+        .text = "several materials, one to a particle",
+        .literature = "none",
+        .form = MOR_MATERIAL_RATE,
+        .capabilities = (all & (MOR_MATERIAL_DISSIPATION | MOR_MATERIAL_EXACT_SCALING)) |
+                        (any & (MOR_MATERIAL_PATH_DEPENDENT | MOR_MATERIAL_NONLOCAL | MOR_MATERIAL_STIFFENS)),
+        .parameters = no_parameters,
+        .state = it->state};
     set_operations(it, &it->descriptor.operations);
     return MOR_OK;
 }

@@ -75,24 +75,6 @@ void mor_piece_cut(const mor_schema *state, int n_state, const mor_batch *batch,
     piece->batch.state_out = batch->state_out != NULL ? piece->state_out : NULL;
 }
 
-mor_status mor_material_find_step(const mor_material_instance *law, const mor_batch *batch, double *step)
-{
-    enum { PIECE = 128 };
-    mor_status status = MOR_OK;
-    *step = INFINITY;
-    for (int64_t first = 0; first < batch->n && law->operations.max_step != NULL && status == MOR_OK; first += PIECE) {
-        mor_piece cut;
-        double steps[PIECE];
-        mor_piece_cut(law->material->state, law->n_state, batch, first,
-                      batch->n - first < PIECE ? batch->n - first : PIECE, &cut);
-        status = law->operations.max_step(law, &cut.batch, steps);
-        for (int64_t i = 0; i < cut.batch.n; ++i) {
-            *step = !(steps[i] >= *step) ? steps[i] : *step;
-        }
-    }
-    return status;
-}
-
 /* A particle of a law without stress. */
 typedef struct trial {
     double density;

@@ -65,13 +65,6 @@ static inline double *mor_piece_numbers(double *numbers, int64_t first)
  *  Returns: what the law returns. */
 mor_status mor_material_find_speed(const mor_material_instance *law, int part, double density, double *speed);
 
-/** Finds the longest step that a law allows.
- *  @param law   [in]   of the soil
- *  @param batch [in]   as of the operation max_step
- *  @param step  [out]  one number, unit s; infinite for a law without that operation
- *  Returns: what the law returns. */
-mor_status mor_material_find_step(const mor_material_instance *law, const mor_batch *batch, double *step);
-
 /** Finds whether soil of a law without stress bears tension when it is stretched along one axis, and how stiff it is.
  *  @param law     [in]   of the soil
  *  @param part    [in]   of a composite, which of its laws; else 0

@@ -5,15 +5,14 @@
 
 #include "core/base/math.h"
 #include "core/material/checked.h"
-#include "core/material/piece.h"
+#include "core/sph/stress/stress_limits.h"
 
 #include <math.h>
 
-/* Step limit of the material, for models that have one. */
-static mor_status limit_by_material(mor_context *context, const mor_soil *soil, double *step_length, const char **limit)
+/* What the law says of waves and of its longest step for the soil as it is. */
+static mor_status find_limits(mor_context *context, const mor_soil *soil, mor_stress_limits *limits)
 {
     const double *state[MOR_MATERIAL_STATES_MAX];
-    double longest = INFINITY;
     for (int k = 0; k < soil->material->n_state; ++k) {
         state[k] = soil->set.data[soil->state_fields[k]];
     }
@@ -21,18 +20,23 @@ static mor_status limit_by_material(mor_context *context, const mor_soil *soil, 
                              .density = soil->set.data[MOR_FIELD_DENSITY],
                              .stress_in = soil->set.data[MOR_FIELD_STRESS],
                              .state_in = state};
-    const mor_status status = mor_material_find_step(soil->material, &batch, &longest);
+    *limits = mor_stress_find_limits(context->n_threads, soil->material, &batch, soil->room.values);
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
-    MOR_CHECK(context, status == MOR_OK, MOR_ERROR_NUMERIC, "material '%s' gave no longest step",
-              soil->material->material->name);
-    if (!(longest >= *step_length)) {
-        *step_length = longest;
-        *limit = "the material";
-    }
+    MOR_CHECK(context, limits->speed < INFINITY && limits->step > 0.0, MOR_ERROR_NUMERIC,
+              "material '%s' gave no speed of waves or no longest step", soil->material->material->name);
     return MOR_OK;
 }
 
-/* Z (51) and the limit by acceleration; the speed of waves counts from moving particles. */
+static void limit_by(double longest, const char *name, double *step_length, const char **limit)
+{
+    if (longest < *step_length) {
+        *step_length = longest;
+        *limit = name;
+    }
+}
+
+/* Z (51), with the speed of waves under the present stress where the law tells it, and the limit by acceleration; the
+ * speed of waves counts from moving particles. */
 mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step_length, const char **limit)
 {
     mor_soil *soil = owner;
@@ -45,29 +49,21 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
         by_barrier = fmin(by_barrier, mor_soil_contact_at(soil, k)->longest_step);
         slowing = fmax(slowing, mor_soil_contact_at(soil, k)->boundary->slowing);
     }
-    *step_length = soil->settings.scheme.courant * h / (soil->sound_speed + fastest);
-    *limit = "the speed of sound in the soil";
+    mor_stress_limits law;
+    MOR_TRY(context, find_limits(context, soil, &law));
+    *step_length = soil->settings.scheme.courant * h / (fmax(soil->sound_speed, law.speed) + fastest);
+    *limit = law.speed > soil->sound_speed ? "the speed of sound in the soil under its stress"
+                                           : "the speed of sound in the soil";
     if (slowing > 1.0) {
         *step_length /= slowing;
         *limit = "a body that is light for its added mass of soil";
         by_barrier /= slowing;
     }
-    if (soil->largest_acceleration > 0.0) {
-        const double by_acceleration = 0.25 * sqrt(h / soil->largest_acceleration);
-        if (by_acceleration < *step_length) {
-            *step_length = by_acceleration;
-            *limit = "the acceleration of the soil";
-        }
-    }
-    if (by_barrier < *step_length) {
-        *step_length = by_barrier;
-        *limit = "the barrier between soil and rocks";
-    }
-    if (soil->settings.scheme.damping * *step_length > 0.5) {
-        *step_length = 0.5 / soil->settings.scheme.damping;
-        *limit = "the damping";
-    }
-    return limit_by_material(context, soil, step_length, limit);
+    limit_by(0.25 * sqrt(h / soil->largest_acceleration), "the acceleration of the soil", step_length, limit);
+    limit_by(by_barrier, "the barrier between soil and rocks", step_length, limit);
+    limit_by(0.5 / soil->settings.scheme.damping, "the damping", step_length, limit);
+    limit_by(law.step, "the material", step_length, limit);
+    return MOR_OK;
 }
 
 double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step)

@@ -347,6 +347,21 @@ static void spin_is_compared_with_rest_where_stress_relaxes(void **state)
     assert_int_equal(judge_spin(&spoiled, soil), MOR_VERDICT_FAIL); /* the promise excuses nothing else */
 }
 
+static void wave_speed_that_changes_is_to_be_declared(void **state)
+{
+    (void)state;
+    const double clay[] = {0.1, 0.02, 0.5, 1e2, 0.8, 10.0, 1.0, 10.0}; /* softer in shear than in compression */
+    mor_conformance_report report;
+    mor_material undeclared = *law_named("modified_cam_clay");
+    conformance_run(&undeclared, clay, &report);
+    assert_int_equal(conformance_find(&report, "wave speed that changes")->verdict, MOR_VERDICT_PASS);
+    undeclared.capabilities &= ~(unsigned)MOR_MATERIAL_STIFFENS;
+    conformance_run(&undeclared, clay, &report);
+    const mor_conformance_row *row = conformance_find(&report, "wave speed that changes");
+    assert_int_equal(row->verdict, MOR_VERDICT_FAIL);
+    assert_non_null(strstr(row->note, "MOR_MATERIAL_STIFFENS"));
+}
+
 static void a_leak_is_noticed(void **state)
 {
     (void)state;
@@ -500,6 +515,7 @@ int main(void)
         cmocka_unit_test(a_wave_speed_far_above_the_stiffness_is_told),
         cmocka_unit_test(a_failure_is_told_with_what_it_was_found_with),
         cmocka_unit_test(spin_is_compared_with_rest_where_stress_relaxes),
+        cmocka_unit_test(wave_speed_that_changes_is_to_be_declared),
         cmocka_unit_test(a_leak_is_noticed),
         cmocka_unit_test(total_form_is_tried_by_its_own_laws),
     };

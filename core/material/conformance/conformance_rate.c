@@ -515,6 +515,34 @@ static void cover_stiffness(mor_bench *bench, mor_conformance_row *row)
     }
 }
 
+/* Steps follow a wave speed that changes only where the law says that it does. */
+static void declare_stiffening(mor_bench *bench, mor_conformance_row *row)
+{
+    double slowest = INFINITY;
+    double fastest = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        double speed[N];
+        bench->other = bench->start;
+        if ((k == 0 && mor_bench_rest(bench, &bench->other) != MOR_OK) ||
+            !find_wave_speeds(bench, &bench->other, speed)) {
+            mor_bench_fail(row, "init_state or wave_speed failed");
+            return;
+        }
+        for (int i = 0; i < N; ++i) {
+            slowest = fmin(slowest, speed[i]);
+            fastest = fmax(fastest, speed[i]);
+        }
+    }
+    const bool is_declared = (bench->material->capabilities & MOR_MATERIAL_STIFFENS) != 0;
+    mor_bench_take(row, is_declared ? 0.0 : fastest / slowest - 1.0);
+    if (!is_declared && !(fastest <= slowest * (1.0 + row->tolerance))) {
+        mor_bench_fail(row,
+                       "wave_speed is %.4g m/s in one state and %.4g m/s in another; add the capability "
+                       "MOR_MATERIAL_STIFFENS, so that steps follow it",
+                       slowest, fastest);
+    }
+}
+
 const mor_bench_entry mor_bench_rate_laws[] = {
     {"step zero is the identity", keep_at_step_zero, 1e-12, "rounding"},
     {"a rigid spin keeps the invariants", keep_invariants_in_spin, 1e-12, "rounding of 200 steps"},
@@ -529,5 +557,6 @@ const mor_bench_entry mor_bench_rate_laws[] = {
      "first order in strains of 1e-5 to 5e-4 a step; volume change"},
     {"a small strain from no stress is resisted", resist_strain, 1e-9, "rounding"},
     {"the wave speed is not below sqrt(K/density)", cover_stiffness, 1e-3, "a part of it; K of strains of 2e-6"},
+    {"a wave speed that changes is declared", declare_stiffening, 0.05, "margin of the time step"},
     {NULL, NULL, 0.0, NULL},
 };

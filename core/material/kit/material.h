@@ -33,13 +33,14 @@ typedef enum mor_material_form {
 
 /** What a model can do beyond the required operations. */
 enum {
-    MOR_MATERIAL_PATH_DEPENDENT = 1, /* the stress depends on the path; energy is not a potential */
-    MOR_MATERIAL_NONLOCAL = 2,       /* its first state variable is a field; operation diffusivity is present */
-    MOR_MATERIAL_TANGENT = 4,        /* operation tangent is present */
-    MOR_MATERIAL_DISSIPATION = 8,    /* advance_rate fills batch->dissipation when it is asked for */
-    MOR_MATERIAL_EXACT_SCALING = 16, /* results are bit-identical under units changed by powers of two */
-    MOR_MATERIAL_FIXED_UNITS = 32,   /* has constants without units, so that it holds in SI units only */
-    MOR_MATERIAL_RATE_DEPENDENT = 64 /* the stress depends on the rate: it may relax with time at rest */
+    MOR_MATERIAL_PATH_DEPENDENT = 1,  /* the stress depends on the path; energy is not a potential */
+    MOR_MATERIAL_NONLOCAL = 2,        /* its first state variable is a field; operation diffusivity is present */
+    MOR_MATERIAL_TANGENT = 4,         /* operation tangent is present */
+    MOR_MATERIAL_DISSIPATION = 8,     /* advance_rate fills batch->dissipation when it is asked for */
+    MOR_MATERIAL_EXACT_SCALING = 16,  /* results are bit-identical under units changed by powers of two */
+    MOR_MATERIAL_FIXED_UNITS = 32,    /* has constants without units, so that it holds in SI units only */
+    MOR_MATERIAL_RATE_DEPENDENT = 64, /* the stress depends on the rate: it may relax with time at rest */
+    MOR_MATERIAL_STIFFENS = 128       /* wave_speed depends on stress or state: steps follow it */
 };
 
 /** What the host lends to create, destroy and describe, so that a plug-in has no undefined symbols. */
@@ -83,7 +84,8 @@ typedef struct mor_material_operations {
     mor_status (*init_state)(const mor_material_instance *instance, const mor_batch *batch);
 
     /** Required. Reads density, stress_in, state_in; writes speed, shape [n], unit m/s: positive and finite. It is the
-     *  speed of the acoustic waves that the method resolves: it sets the step and the Riemann impedance. */
+     *  speed of the acoustic waves that the method resolves: that of the state without stress sets the step and the
+     *  Riemann impedance; with MOR_MATERIAL_STIFFENS the step follows the largest at present where that is larger. */
     mor_status (*wave_speed)(const mor_material_instance *instance, const mor_batch *batch, double *speed);
 
     /** Required for the rate form, or stress_rate in its place. Reads time_step, velocity_gradient, density,

@@ -130,21 +130,31 @@ static double find_stiffening(const mor_soil *soil, int64_t *stiffest)
     return largest;
 }
 
-/* The step follows from the speed of waves in soil without stress; laws whose stiffness grows with the pressure have
- * more. */
+/* Steps follow the speed of waves in soil without stress, and that of the present where a law tells that it changes.
+ * Dissipation and stress diffusion are those of the former: a third of the usual diffusion is what a fit needs. */
 static void warn_of_stiffening(mor_context *context, const mor_simulation *s)
 {
-    const double slack = 1.05; /* of the Courant number */
+    const double step_slack = 1.05; /* of the Courant number */
+    const double diffusion_slack = 3.0;
+    const mor_material *law = s->soil.material->material;
+    const bool is_followed = (law->capabilities & MOR_MATERIAL_STIFFENS) != 0;
     int64_t stiffest = 0;
     const double ratio = find_stiffening(&s->soil, &stiffest);
-    if (ratio > slack) {
-        const double *stress = s->soil.set.data[MOR_FIELD_STRESS] + 6 * stiffest;
-        mor_context_log(
-            context, MOR_LOG_WARNING,
-            "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g Pa) "
-            "as the time step assumes: set numerics.courant = %.2g or less, or raise the pressure at which "
-            "the law takes its speed of sound, if it has such a parameter",
-            ratio, -(stress[0] + stress[1] + stress[2]) / 3.0, s->the_case->numerics.courant / ratio);
+    const double *stress = s->soil.set.data[MOR_FIELD_STRESS] + 6 * stiffest;
+    const double pressure = -(stress[0] + stress[1] + stress[2]) / 3.0;
+    if (is_followed && ratio > diffusion_slack) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g "
+                        "Pa) as those that dissipation and stress diffusion are made for, which are so many times too "
+                        "weak: raise the pressure at which the law takes its speed of sound (wave_pressure)",
+                        ratio, pressure);
+    } else if (!is_followed && ratio > step_slack) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g "
+                        "Pa) as the time step assumes, and the law '%s' does not tell the capability "
+                        "MOR_MATERIAL_STIFFENS, by which steps would follow: add it, or set numerics.courant = %.2g or "
+                        "less",
+                        ratio, pressure, law->name, s->the_case->numerics.courant / ratio);
     }
 }
 
