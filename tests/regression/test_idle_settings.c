@@ -51,11 +51,11 @@ static const idle_row rows[] = {
     {"soil[0].initial_stress.formula=(\"0\", \"19e3*(0.4 - y)\", \"0\", \"0\")", "!is tension in"}, /* 40 of 100 */
 };
 
-/* Checks a case with one setting more, and expects a text in what is told, or none after '!'. */
-static void expect_told(run_folder *folder, const char *text, const char *setting, const char *told)
+/* Checks a case with two settings more, and expects a text in what is told, or none after '!'. */
+static void expect_both(run_folder *folder, const char *text, const char *setting, const char *second, const char *told)
 {
     char path[MOR_PATH_BYTES];
-    const char *const arguments[] = {"check", path, "-t", "1", "-s", setting, NULL};
+    const char *const arguments[] = {"check", path, "-t", "1", "-s", setting, "-s", second, NULL};
     finished_run_store_text(folder, text, path);
     program_outcome outcome = program_run(folder, arguments, 0);
     if (told[0] != '!') {
@@ -64,6 +64,11 @@ static void expect_told(run_folder *folder, const char *text, const char *settin
         fail_msg("'%s' has an effect and was warned of: %s", setting, outcome.output);
     }
     program_clear(&outcome);
+}
+
+static void expect_told(run_folder *folder, const char *text, const char *setting, const char *told)
+{
+    expect_both(folder, text, setting, setting, told);
 }
 
 static void settings_without_effect_are_warned_of(void **state)
@@ -89,6 +94,19 @@ static void regions_on_walls_that_soil_has_yet_to_reach_are_no_mistake(void **st
     expect_told(*state, floor, "gauges[0].name=strip", "!has a region");
     expect_told(*state, floor, "gauges[0].region={type=\"box\"; min=(100.0, 1.5); max=(102.0, 2.5);}",
                 "gauge 'far' has a region that is at least");
+}
+
+static void soil_that_is_released_after_the_ramp_is_told_of_its_weight(void **state)
+{
+    static const char told[] = "soil 'sand' starts without stress and is released at 0.01 s, when the gravity ramp of "
+                               "0.004 s has brought 1 of gravity: that acts on it at once";
+    static const char ramp[] = COLUMN("numerics = { gravity_ramp = '4 ms'; };", "");
+    static const char late[] = COLUMN("numerics = { gravity_ramp = '20 ms'; };", "");
+    static const char bare[] = "soil[0].initial_stress={type=\"none\";}";
+    expect_told(*state, ramp, "soil[0].released=10 ms", "!starts without stress");
+    expect_told(*state, ramp, bare, "!starts without stress");
+    expect_both(*state, ramp, bare, "soil[0].released=10 ms", told);
+    expect_both(*state, late, bare, "soil[0].released=10 ms", "has brought 0.5 of gravity");
 }
 
 static void maps_of_the_end_alone_are_warned_of(void **state)
@@ -160,6 +178,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         FOLDER_TEST(settings_without_effect_are_warned_of),
         FOLDER_TEST(regions_on_walls_that_soil_has_yet_to_reach_are_no_mistake),
+        FOLDER_TEST(soil_that_is_released_after_the_ramp_is_told_of_its_weight),
         FOLDER_TEST(maps_of_the_end_alone_are_warned_of),
         FOLDER_TEST(stages_warn_of_what_does_nothing),
         FOLDER_TEST(run_out_of_soil_that_moves_is_warned_of),

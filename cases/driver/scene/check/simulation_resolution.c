@@ -233,8 +233,7 @@ static mor_status warn_of_mass(mor_context *context, const mor_simulation *s, in
     return MOR_OK;
 }
 
-/* ---- Bodies in contact with soil
- * --------------------------------------------------------------------------------------- */
+/* ---- Bodies in contact with soil --------------------------------------------------------------------------------- */
 
 /* Largest shortfall of the depth of balls dropped on sand, by radius over spacing, from docs/validation/crater.md. */
 typedef struct depth_shortfall {
@@ -272,15 +271,29 @@ double mor_simulation_radius_enough(bool is_reconstructed)
     return find_shortfalls(is_reconstructed)[N_SHORTFALLS - 1].n;
 }
 
-double mor_simulation_body_radius(const mor_body *body, int dimension)
+/* Smallest or largest half extent of a body along an axis, m. */
+static double find_half(const mor_body *body, int dimension, bool is_largest)
 {
     mor_bounds bounds;
-    double least = INFINITY;
+    double found = is_largest ? 0.0 : INFINITY;
     mor_shape_bounds(body->shape, &bounds);
     for (int a = 0; a < dimension; ++a) {
-        least = fmin(least, 0.5 * (bounds.maximum[a] - bounds.minimum[a]));
+        const double half = 0.5 * (bounds.maximum[a] - bounds.minimum[a]);
+        found = is_largest ? fmax(found, half) : fmin(found, half);
     }
-    return least;
+    return found;
+}
+
+double mor_simulation_body_radius(const mor_body *body, int dimension)
+{
+    return find_half(body, dimension, false);
+}
+
+/* Slabs, bars and plates: what was measured with balls does not hold for them. */
+static bool is_slender(const mor_body *body, int dimension)
+{
+    const double slender = 2.0; /* largest over smallest extent */
+    return find_half(body, dimension, true) > slender * find_half(body, dimension, false);
 }
 
 bool mor_simulation_is_carried(const mor_simulation *simulation, const mor_body_group *group, const mor_body *body)
@@ -354,11 +367,14 @@ static void warn_of_coarse_bodies(mor_context *context, const mor_simulation *s)
     if (!describe_coarse_bodies(s, false, enough, &found, which, cost)) {
         return;
     }
+    const bool is_flat = is_slender(found.coarsest, s->the_case->dimension);
     mor_context_log(
         context, MOR_LOG_WARNING,
-        "%s %.3g spacings from the center to the side, fewer than %.2g: balls this coarse sink up to %.0f %% "
+        "%s %.3g spacings from the center to the side%s, fewer than %.2g: %sballs this coarse sink up to %.0f %% "
         "too little into sand (docs/validation/crater.md); use a spacing of at most %s, or fewer and larger bodies%s",
-        which, found.least, enough, 100.0 * mor_simulation_depth_error(found.least, is_reconstructed), cost,
+        which, found.least, is_flat ? " across its shortest axis" : "", enough,
+        is_flat ? "nothing was measured with bodies of its shape, and " : "",
+        100.0 * mor_simulation_depth_error(found.least, is_reconstructed), cost,
         is_reconstructed ? "" : ", or from 4.2 spacings on numerics.reconstruction = \"linear\"");
 }
 
