@@ -19,9 +19,11 @@
 #if defined(MOR_SINGLE)
 typedef float real;
 typedef int32_t bits;
+typedef uint32_t unsigned_bits;
 #else
 typedef double real;
 typedef int64_t bits;
+typedef uint64_t unsigned_bits;
 #endif
 
 /* Particles in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others,
@@ -47,6 +49,13 @@ enum { PARTS = MOR_CLUSTER / LANES, WIDTH = LANES * TARGETS };
 typedef real vec __attribute__((vector_size(WIDTH * sizeof(real))));
 
 #define INLINE static inline __attribute__((always_inline))
+
+/* For functions that stay out of the loops that call them. GCC 12 drops calls whose effects it believes it knows. */
+#if defined(__clang__)
+#define OPAQUE __attribute__((noinline)) static
+#else
+#define OPAQUE __attribute__((noipa)) static
+#endif
 
 /** Returns a number other than zero when any lane of a is less than b, else zero; any unit. With two targets it has a
  *  bit for each lane that is. */

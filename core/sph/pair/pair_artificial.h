@@ -69,8 +69,8 @@ INLINE void add_artificial_chunk(momentum_part *part, const geometries *chunk, c
 typedef void (*adder)(momentum_part *part, const geometries *chunk, const momentum_rows *rows, int turn,
                       const mor_pair_constants *c);
 #define MOR_ARTIFICIAL_FUNCTION(name, dimension)                                                                       \
-    __attribute__((noinline)) static void name(momentum_part *part, const geometries *chunk,                           \
-                                               const momentum_rows *rows, int turn, const mor_pair_constants *c)       \
+    OPAQUE void name(momentum_part *part, const geometries *chunk, const momentum_rows *rows, int turn,                \
+                     const mor_pair_constants *c)                                                                      \
     {                                                                                                                  \
         add_artificial_chunk(part, chunk, rows, turn, c, (dimension));                                                 \
     }

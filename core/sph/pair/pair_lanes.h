@@ -248,22 +248,45 @@ INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
     return (geometry){with_square ? *distance2 : broadcast(0.0), g->distance[q], g->k[q]};
 }
 
-/** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, 1. It is
- *  found lane by lane, where a pair is under tension; 0 elsewhere.
+/* x^n as 2^(n log2 x) for normal x > 0, to roundings of n log2 x. log2 of x = 2^k m, m from sqrt(1/2) to sqrt(2), by
+ * the series of artanh((m - 1)/(m + 1)); sums with a number of no fraction leave k in their last bits. */
+INLINE vec power_of(vec x, real n)
+{
+    enum { SINGLE = sizeof(real) == sizeof(float), FRACTION = SINGLE ? 23 : 52, BIAS = SINGLE ? 127 : 1023 };
+    const bits root_half = SINGLE ? (bits)0x3f3504f3 : (bits)0x3fe6a09e667f3bcd;
+    const real whole = SINGLE ? 0x1p23 : 0x1p52;
+    typedef unsigned_bits words __attribute__((vector_size(WIDTH * sizeof(bits))));
+    const mask k = (mask)((words)((mask)x - (root_half - ((bits)BIAS << FRACTION))) >> FRACTION);
+    const vec m = (vec)((mask)x - ((k - BIAS) << FRACTION));
+    const vec s = (m - 1.0) / (m + 1.0);
+    vec log = broadcast(0.0);
+    for (int j = SINGLE ? 9 : 21; j > 0; j -= 2) {
+        log = log * (s * s) + (real)(2.88539008177792681 / j); /* 2 / ln 2 */
+    }
+    const vec exponent = (vec)(k | (mask)broadcast(whole)) - (whole + BIAS);
+    const real shift = (real)1.5 * whole;
+    const vec y = smaller(larger(n * (exponent + log * s), broadcast(2 - BIAS)), broadcast(BIAS - 2));
+    const vec sum = y + shift;
+    const vec r = (y - (sum - shift)) * (real)0.693147180559945309;
+    vec p = broadcast(1.0);
+    for (int j = SINGLE ? 7 : 13; j > 0; --j) {
+        p = p * r * (real)(1.0 / j) + 1.0;
+    }
+    return (vec)((mask)p + ((mask)sum << FRACTION));
+}
+
+/** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, 1; 0
+ *  where a pair is not under tension.
  *  @param reach [in]  1 - q/2, 1
  *  @param trace [in]  of the artificial stresses of both, unit Pa: zero without tension, since all principal stresses
  *      have one sign */
 INLINE vec artificial_factor(vec reach, vec trace, const mor_pair_constants *c)
 {
     const vec square = reach * reach;
-    const vec shape = square * square * (4.0 * (1.0 - reach) + 1.0);
-    const vec f = shape * (real)(c->kernel_normalization / c->spacing_kernel);
-    vec power;
-    for (int lane = 0; lane < WIDTH; ++lane) {
-        const bool is_needed = f[lane] > 0.0 && trace[lane] != 0.0;
-        power[lane] = is_needed ? (real)pow(f[lane], c->artificial_exponent) : (real)0.0;
-    }
-    return power;
+    const real over_spacing = (real)(c->kernel_normalization / c->spacing_kernel);
+    const vec f = square * square * (4.0 * (1.0 - reach) + 1.0) * over_spacing;
+    const vec power = power_of(larger(f, broadcast(1e-30F)), (real)c->artificial_exponent);
+    return select_lanes((f > 0.0) & (trace != 0.0), power, broadcast(0.0));
 }
 
 /* What the loops read, in doubles or in singles. */
