@@ -253,17 +253,17 @@ INLINE geometry geometry_at(const geometries *g, int q, const int with_square)
 INLINE vec power_of(vec x, real n)
 {
     enum { SINGLE = sizeof(real) == sizeof(float), FRACTION = SINGLE ? 23 : 52, BIAS = SINGLE ? 127 : 1023 };
-    const bits root_half = SINGLE ? (bits)0x3f3504f3 : (bits)0x3fe6a09e667f3bcd;
-    const real whole = SINGLE ? 0x1p23 : 0x1p52;
     typedef unsigned_bits words __attribute__((vector_size(WIDTH * sizeof(bits))));
-    const mask k = (mask)((words)((mask)x - (root_half - ((bits)BIAS << FRACTION))) >> FRACTION);
-    const vec m = (vec)((mask)x - ((k - BIAS) << FRACTION));
+    const unsigned_bits root_half = SINGLE ? (unsigned_bits)0x3f3504f3 : (unsigned_bits)0x3fe6a09e667f3bcd;
+    const real whole = SINGLE ? 0x1p23 : 0x1p52;
+    const words k = ((words)x - (root_half - ((unsigned_bits)BIAS << FRACTION))) >> FRACTION;
+    const vec m = (vec)((words)x - ((k - BIAS) << FRACTION));
     const vec s = (m - 1.0) / (m + 1.0);
     vec log = broadcast(0.0);
     for (int j = SINGLE ? 9 : 21; j > 0; j -= 2) {
         log = log * (s * s) + (real)(2.88539008177792681 / j); /* 2 / ln 2 */
     }
-    const vec exponent = (vec)(k | (mask)broadcast(whole)) - (whole + BIAS);
+    const vec exponent = (vec)(k | (words)broadcast(whole)) - (whole + BIAS);
     const real shift = (real)1.5 * whole;
     const vec y = smaller(larger(n * (exponent + log * s), broadcast(2 - BIAS)), broadcast(BIAS - 2));
     const vec sum = y + shift;
@@ -272,7 +272,7 @@ INLINE vec power_of(vec x, real n)
     for (int j = SINGLE ? 7 : 13; j > 0; --j) {
         p = p * r * (real)(1.0 / j) + 1.0;
     }
-    return (vec)((mask)p + ((mask)sum << FRACTION));
+    return (vec)((words)p + ((words)sum << FRACTION));
 }
 
 /** Returns f^n of the artificial stress, eq. 27 of Zhang et al. (2024), f the kernel over that at the spacing, 1; 0
