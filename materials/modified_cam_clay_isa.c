@@ -211,13 +211,15 @@ static mor_status modified_cam_clay_init_state(const mor_material_instance *inst
     return MOR_OK;
 }
 
-/* As mor_hooke_wave_speed, with the bulk modulus at the preconsolidation pressure: the largest until it hardens. */
+/* As mor_hooke_wave_speed, with the bulk modulus at the pressure, and at no less than the least preconsolidation
+ * pressure: clay that has once borne more, and bears it no longer, is not stiffer. */
 static mor_status modified_cam_clay_wave_speed(const mor_material_instance *instance, const mor_batch *batch,
                                                double *speed)
 {
     const cam_clay *m = instance->data;
     for (int64_t i = 0; i < batch->n; ++i) {
-        const double bulk = m->elastic * batch->state_in[STATE_PRECONSOLIDATION][i];
+        const double p = read_state(batch->stress_in + 6 * i, 0.0).p;
+        const double bulk = m->elastic * (p > m->preconsolidation ? p : m->preconsolidation);
         const double third_of_pressure_wave = (bulk + 4.0 / 3.0 * m->shear) / 3.0;
         speed[i] = sqrt((bulk > third_of_pressure_wave ? bulk : third_of_pressure_wave) / instance->density);
     }

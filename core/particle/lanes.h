@@ -50,7 +50,7 @@ typedef real vec __attribute__((vector_size(WIDTH * sizeof(real))));
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* For functions that stay out of the loops that call them. GCC 12 drops calls whose effects it believes it knows. */
+/* For functions that stay out of the loops that call them. GCC 12 drops calls whose effects it takes to be none. */
 #if defined(__clang__)
 #define OPAQUE __attribute__((noinline)) static
 #else

@@ -13,6 +13,10 @@
 /** The schemes, in the order of the words of the setting `scheme`. */
 typedef enum mor_scheme_kind { MOR_SCHEME_MORAINE, MOR_SCHEME_ZHANG2024 } mor_scheme_kind;
 
+/** Least stress_diffusion with a fitted velocity gradient, 1: an elastic cube gained energy with 0.01 and lost it with
+ *  0.1, blocks in plane strain with 0.02 (docs/theory/soil.md). */
+#define MOR_SCHEME_LEAST_DIFFUSION 0.03
+
 /** All settings. Plain data in SI; meaning, unit, range and default of each: its row in scheme.def. A choice is the
  *  index of its word. */
 typedef struct mor_scheme {

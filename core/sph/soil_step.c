@@ -22,8 +22,9 @@ static mor_status find_limits(mor_context *context, const mor_soil *soil, mor_st
                              .state_in = state};
     *limits = mor_stress_find_limits(context->n_threads, soil->material, &batch, soil->room.values);
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
-    MOR_CHECK(context, limits->speed < INFINITY && limits->step > 0.0, MOR_ERROR_NUMERIC,
-              "material '%s' gave no speed of waves or no longest step", soil->material->material->name);
+    MOR_CHECK(context, limits->speed < INFINITY && !isnan(limits->step), MOR_ERROR_NUMERIC,
+              "material '%s' told %g m/s as speed of waves, %g s as longest step; allowed: numbers; look at its stress",
+              soil->material->material->name, limits->speed, limits->step);
     return MOR_OK;
 }
 
@@ -59,9 +60,12 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
         *limit = "a body that is light for its added mass of soil";
         by_barrier /= slowing;
     }
-    limit_by(0.25 * sqrt(h / soil->largest_acceleration), "the acceleration of the soil", step_length, limit);
+    const double fastest_rise = soil->largest_acceleration;
+    limit_by(fastest_rise > 0.0 ? 0.25 * sqrt(h / fastest_rise) : INFINITY, "the acceleration of the soil", step_length,
+             limit);
     limit_by(by_barrier, "the barrier between soil and rocks", step_length, limit);
-    limit_by(0.5 / soil->settings.scheme.damping, "the damping", step_length, limit);
+    const double damping = soil->settings.scheme.damping;
+    limit_by(damping > 0.0 ? 0.5 / damping : INFINITY, "the damping", step_length, limit);
     limit_by(law.step, "the material", step_length, limit);
     return MOR_OK;
 }

@@ -84,7 +84,7 @@ static const scene columns[] = {
     {"soil[0].initial_stress={type=\"settled\"; settle_time=1e5;}", "settle_time = 100000 s takes up to about 1.8"},
     {"soil[0].material=" MU_I "gas_density_ratio=1.0;}", NULL},
     /* 6 kPa at the base, with the speed of sound of 10 Pa: (6000 / 10)^((1 - n) / 2). */
-    {"soil[0].material=" SAND "wave_pressure=10;}", "as those that dissipation and stress diffusion are made for"},
+    {"soil[0].material=" SAND "wave_pressure=10;}", "so that dissipation and stress diffusion are too weak for it"},
     {"soil[0].material=" SAND "wave_pressure=1e4;}", NULL},
     {"soil[1].initial_stress={type=\"none\";}",
      "soil 't' starts without stress beside soil 's', which starts with k0: the stress jumps where they meet"},

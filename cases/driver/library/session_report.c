@@ -218,7 +218,9 @@ static void print_steps(FILE *out, const mor_simulation *s, const step_cost *now
     const double length = now->length;
     fprintf(out, "  time step               about %.4g s, limited by %s%s\n", length, schedule->limit,
             schedule->is_single_rate ? " (single rate)" : "");
-    fprintf(out, "  steps                   about %.0f for %g s\n", ceil(s->the_case->end / length), s->the_case->end);
+    const bool stiffens = s->has_soil && (s->soil.material->material->capabilities & MOR_MATERIAL_STIFFENS) != 0;
+    fprintf(out, "  steps                   about %.0f for %g s%s\n", ceil(s->the_case->end / length), s->the_case->end,
+            stiffens ? "; more where stress grows, for the soil becomes stiffer" : "");
     print_lightest(out, s);
     for (int k = 0; k < schedule->n_steppers; ++k) {
         fprintf(out, "  step of %-15s ", schedule->steppers[k].name);

@@ -182,19 +182,18 @@ static mor_status check_barrier(const mor_case_reader *reader, const mor_case_no
                               c->numerics.barrier_radius, support);
 }
 
-/* Forces by sums are not adjoint to a gradient by a fit: what it gains at surfaces, only diffusion takes away. An
- * elastic cube gained energy with 0.01 of it and lost it with 0.1, blocks in plane strain with 0.02: soil.md. */
-static const double least_diffusion_of_fit = 0.03;
-
+/* Forces by sums are not adjoint to a gradient by a fit: what it gains at surfaces, only diffusion takes away. */
 static void warn_of_fit(const mor_case_reader *reader, const mor_case *c)
 {
-    if (c->n_soils > 0 && c->numerics.velocity_gradient != 0 && c->numerics.stress_diffusion < least_diffusion_of_fit) {
+    if (c->n_soils > 0 && c->numerics.velocity_gradient != 0 &&
+        c->numerics.stress_diffusion < MOR_SCHEME_LEAST_DIFFUSION) {
         mor_context_log(
             reader->context, MOR_LOG_WARNING,
             "numerics.velocity_gradient = \"%s\" with stress_diffusion below %g: waves at surfaces and walls may gain "
             "energy and grow; set numerics.stress_diffusion to %g or more (0.1 by default), or velocity_gradient = "
             "\"sum\"",
-            c->numerics.velocity_gradient == 1 ? "fit" : "transient", least_diffusion_of_fit, least_diffusion_of_fit);
+            c->numerics.velocity_gradient == 1 ? "fit" : "transient", MOR_SCHEME_LEAST_DIFFUSION,
+            MOR_SCHEME_LEAST_DIFFUSION);
     }
 }
 

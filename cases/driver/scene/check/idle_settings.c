@@ -226,17 +226,18 @@ static void warn_of_velocity(mor_context *context, const mor_case *c)
 /* A ramp loads only soil that moves while it lasts. */
 static void warn_of_ramp(mor_context *context, const mor_case *c)
 {
-    const double ramp = c->numerics.gravity_ramp;
+    const double least = 0.1; /* part of gravity */
+    const double ramp = mor_vector_length(c->gravity) > 0.0 ? c->numerics.gravity_ramp : 0.0;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *it = &c->soils[k];
-        if (ramp > 0.0 && it->released > 0.0 && it->initial_stress == MOR_CASE_STRESS_NONE &&
+        const double part = mor_ramp(it->released, ramp, c->numerics.gravity_ramp_form == 1);
+        if (ramp > 0.0 && part > least && it->released > 0.0 && it->initial_stress == MOR_CASE_STRESS_NONE &&
             !mor_case_takes_over(c, k)) {
             mor_context_log(context, MOR_LOG_WARNING,
                             "%s:%d: soil '%s' starts without stress and is released at %g s, when the gravity ramp "
-                            "of %g s has brought %.3g of gravity: that acts on it at once, and it rings; give it an "
-                            "initial_stress, or release it from the start",
-                            it->place.file, it->place.line, it->name, it->released, ramp,
-                            mor_ramp(it->released, ramp, c->numerics.gravity_ramp_form == 1));
+                            "of %g s has brought %.3g of gravity: that acts on it at once, and where it rests on "
+                            "something it oscillates; give such soil an initial_stress, or release it from the start",
+                            it->place.file, it->place.line, it->name, it->released, ramp, part);
         }
     }
 }

@@ -130,31 +130,51 @@ static double find_stiffening(const mor_soil *soil, int64_t *stiffest)
     return largest;
 }
 
-/* Steps follow the speed of waves in soil without stress, and that of the present where a law tells that it changes.
- * Dissipation and stress diffusion are those of the former: a third of the usual diffusion is what a fit needs. */
-static void warn_of_stiffening(mor_context *context, const mor_simulation *s)
+static double find_pressure(const mor_simulation *s, int64_t particle)
 {
-    const double step_slack = 1.05; /* of the Courant number */
-    const double diffusion_slack = 3.0;
-    const mor_material *law = s->soil.material->material;
-    const bool is_followed = (law->capabilities & MOR_MATERIAL_STIFFENS) != 0;
+    const double *stress = s->soil.set.data[MOR_FIELD_STRESS] + 6 * particle;
+    return -(stress[0] + stress[1] + stress[2]) / 3.0;
+}
+
+static bool steps_follow(const mor_simulation *s)
+{
+    return (s->soil.material->material->capabilities & MOR_MATERIAL_STIFFENS) != 0;
+}
+
+/* Steps follow the speed of waves in soil without stress where a law does not declare that it changes. */
+static void warn_of_long_steps(mor_context *context, const mor_simulation *s)
+{
+    const double slack = 1.05; /* of the Courant number */
     int64_t stiffest = 0;
     const double ratio = find_stiffening(&s->soil, &stiffest);
-    const double *stress = s->soil.set.data[MOR_FIELD_STRESS] + 6 * stiffest;
-    const double pressure = -(stress[0] + stress[1] + stress[2]) / 3.0;
-    if (is_followed && ratio > diffusion_slack) {
+    if (!steps_follow(s) && ratio > slack) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g "
-                        "Pa) as those that dissipation and stress diffusion are made for, which are so many times too "
-                        "weak: raise the pressure at which the law takes its speed of sound (wave_pressure)",
-                        ratio, pressure);
-    } else if (!is_followed && ratio > step_slack) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g "
-                        "Pa) as the time step assumes, and the law '%s' does not tell the capability "
+                        "Pa) as the time step assumes, and the law '%s' does not declare the capability "
                         "MOR_MATERIAL_STIFFENS, by which steps would follow: add it, or set numerics.courant = %.2g or "
                         "less",
-                        ratio, pressure, law->name, s->the_case->numerics.courant / ratio);
+                        ratio, find_pressure(s, stiffest), s->soil.material->material->name,
+                        s->the_case->numerics.courant / ratio);
+    }
+}
+
+void mor_simulation_warn_of_stiffening(mor_context *context, const mor_simulation *simulation, const char *when)
+{
+    const mor_simulation *s = simulation;
+    const mor_scheme *n = &s->the_case->numerics;
+    if (!s->has_soil || !steps_follow(s) || n->velocity_gradient == 0) {
+        return;
+    }
+    int64_t stiffest = 0;
+    const double ratio = find_stiffening(&s->soil, &stiffest);
+    if (n->stress_diffusion >= MOR_SCHEME_LEAST_DIFFUSION && n->stress_diffusion / ratio < MOR_SCHEME_LEAST_DIFFUSION) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%swaves in the soil are up to %.3g times as fast (mean pressure %.3g Pa) as those of the "
+            "speed of sound, %.4g m/s, so that dissipation and stress diffusion are too weak for it by that "
+            "factor: waves at surfaces and walls may gain energy and grow; use a numerics.stress_diffusion "
+            "of %.2g, or a law whose speed of sound is that under the usual pressure",
+            when, ratio, find_pressure(s, stiffest), s->soil.sound_speed, MOR_SCHEME_LEAST_DIFFUSION * ratio);
     }
 }
 
@@ -304,7 +324,8 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     if (simulation->has_soil) {
         warn_of_gas(context, simulation);
         warn_of_fields(context, simulation);
-        warn_of_stiffening(context, simulation);
+        warn_of_long_steps(context, simulation);
+        mor_simulation_warn_of_stiffening(context, simulation, "");
     }
     mor_plausible_warn(context, c);
     mor_wall_thickness_warn(context, c);

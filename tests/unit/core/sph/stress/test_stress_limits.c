@@ -1,6 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/base/random.h"
+#include "core/material/checked.h"
+#include "core/material/composite.h"
+#include "core/material/varied.h"
 #include "core/sph/stress/stress_limits.h"
 #include "core/sph/stress/stress_update.h"
 #include "tests/common/law_point.h"
@@ -105,6 +108,34 @@ static void step_is_the_shortest_of_all_particles(void **state)
     law_point_close(&s.law);
 }
 
+/* Laws are wrapped where parameters vary, where there are several soils, and where they are checked. */
+static void wrapped_laws_still_tell_their_speed(void **state)
+{
+    (void)state;
+    const double sand[6] = {4e6, 0.3, 0.5, 0.0, 0.0, 1.0};
+    const int friction_angle = 2;
+    law_point one;
+    law_point other;
+    mor_material_instance *varied = NULL;
+    mor_material_instance *several = NULL;
+    law_point_open(&one, "modified_cam_clay", clay);
+    law_point_open(&other, "mohr_coulomb", sand);
+    mor_context *context = &one.context;
+    assert_int_equal(mor_varied_create(context, &one.law, &friction_angle, 1, &varied), MOR_OK);
+    assert_true((varied->material->capabilities & MOR_MATERIAL_STIFFENS) != 0);
+    const mor_material_instance *const parts[] = {other.law, varied};
+    assert_int_equal(mor_composite_create(context, parts, 2, &several), MOR_OK);
+    assert_true((several->material->capabilities & MOR_MATERIAL_STIFFENS) != 0);
+    mor_material_instance *checked = NULL;
+    assert_int_equal(mor_checked_create(context, &several, 1, &checked), MOR_OK);
+    assert_true((checked->material->capabilities & MOR_MATERIAL_STIFFENS) != 0);
+    assert_false((other.law->material->capabilities & MOR_MATERIAL_STIFFENS) != 0);
+    mor_material_destroy(context, &checked);
+    mor_material_destroy(context, &varied);
+    law_point_close(&other);
+    assert_int_equal(context->memory_bytes, 0);
+}
+
 static void law_that_fails_has_no_limits(void **state)
 {
     (void)state;
@@ -121,6 +152,7 @@ int main(void)
         cmocka_unit_test(speed_is_the_largest_of_all_particles),
         cmocka_unit_test(law_whose_stiffness_stays_tells_no_speed),
         cmocka_unit_test(step_is_the_shortest_of_all_particles),
+        cmocka_unit_test(wrapped_laws_still_tell_their_speed),
         cmocka_unit_test(law_that_fails_has_no_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
