@@ -280,11 +280,27 @@ static void first_state_holds_the_ellipse_through_the_stress(void **state)
     const double pressure = 2.2e5 / 3.0;
     const double size = 2.0 * (pressure + 1.6e9 / (SLOPE * SLOPE * pressure));
     law_point_check_close(p.state[PRECONSOLIDATION], size, 1e-12 * size); /* rounding */
-    double speed = 0.0;
-    const double *state_in[] = {p.state, p.state + 1, p.state + 2};
-    const mor_batch batch = {.n = 1, .density = &p.density, .stress_in = p.stress, .state_in = state_in};
-    assert_int_equal(p.law->operations.wave_speed(p.law, &batch, &speed), MOR_OK);
-    law_point_check_close(speed, sqrt((1.0 + VOID_RATIO) / KAPPA * size / LAW_POINT_DENSITY), 1e-12 * speed);
+    law_point_close(&p);
+}
+
+/* Of the elastic stiffness at the pressure, (1 + e0) p / kappa, whatever the clay has once borne; of that at the least
+ * preconsolidation pressure, 5 kPa, below it. */
+static void waves_are_as_fast_as_the_pressure_makes_them(void **state)
+{
+    (void)state;
+    static const double pressures[] = {0.0, 4e3, 2e4, 3e5};
+    law_point p;
+    open_clay(&p, 2.0);
+    for (int k = 0; k < 4; ++k) {
+        law_point_start_isotropic(&p, pressures[k]);
+        double speed = 0.0;
+        const double *state_in[] = {p.state, p.state + 1, p.state + 2};
+        const mor_batch batch = {.n = 1, .density = &p.density, .stress_in = p.stress, .state_in = state_in};
+        assert_int_equal(p.law->operations.wave_speed(p.law, &batch, &speed), MOR_OK);
+        const double bulk = (1.0 + VOID_RATIO) / KAPPA * fmax(pressures[k], 5e3);
+        const double stiffness = fmax(bulk, (bulk + 4.0 / 3.0 * SHEAR) / 3.0);
+        law_point_check_close(speed, sqrt(stiffness / LAW_POINT_DENSITY), 1e-12 * speed); /* rounding */
+    }
     law_point_close(&p);
 }
 
@@ -323,6 +339,7 @@ int main(void)
         cmocka_unit_test(any_path_converges_to_the_rate_equations),
         cmocka_unit_test(tension_leaves_no_stress_and_a_soil_that_can_be_compressed_again),
         cmocka_unit_test(first_state_holds_the_ellipse_through_the_stress),
+        cmocka_unit_test(waves_are_as_fast_as_the_pressure_makes_them),
         cmocka_unit_test(numbers_without_a_clay_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
