@@ -333,10 +333,11 @@ static const mor_schema PARAMETERS[] = {
     [SHEAR_MODULUS] = {MOR_POSITIVE_ENTRY("shear_modulus", "Pa", INFINITY, "shear modulus G"), .is_required = 1,
                        .role = MOR_ROLE_SHEAR_MODULUS},
     [VOID_RATIO] = {MOR_POSITIVE_ENTRY("void_ratio", "1", 10.0, "void ratio e0 at the start"), .is_required = 1},
-    [PRECONSOLIDATION] = {MOR_POSITIVE_ENTRY(
-                              "preconsolidation", "Pa", INFINITY,
-                              "least preconsolidation pressure at the start; the wave speed follows from it"),
-                          .is_required = 1},
+    [PRECONSOLIDATION] =
+        {MOR_POSITIVE_ENTRY(
+             "preconsolidation", "Pa", INFINITY,
+             "least preconsolidation pressure at the start; the wave speed is that at this pressure or more"),
+         .is_required = 1},
     [OVERCONSOLIDATION_RATIO] = {.key = "overconsolidation_ratio",
                                  .kind = MOR_SCHEMA_REAL,
                                  .n_components = 1,
