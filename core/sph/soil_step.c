@@ -22,9 +22,11 @@ static mor_status find_limits(mor_context *context, const mor_soil *soil, mor_st
                              .state_in = state};
     *limits = mor_stress_find_limits(context->n_threads, soil->material, &batch, soil->room.values);
     MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, 0.0));
-    MOR_CHECK(context, limits->speed < INFINITY && !isnan(limits->step), MOR_ERROR_NUMERIC,
-              "material '%s' told %g m/s as speed of waves, %g s as longest step; allowed: numbers; look at its stress",
-              soil->material->material->name, limits->speed, limits->step);
+    MOR_CHECK(
+        context, limits->speed < INFINITY && !isnan(limits->step), MOR_ERROR_NUMERIC,
+        "material '%s' told a speed of waves of %g m/s and a longest step of %g s; allowed are numbers; look at the "
+        "stress in the last snapshot, or take a smaller 'courant'",
+        soil->material->material->name, limits->speed, limits->step);
     return MOR_OK;
 }
 
@@ -60,9 +62,8 @@ mor_status mor_soil_propose_step(mor_context *context, void *owner, double *step
         *limit = "a body that is light for its added mass of soil";
         by_barrier /= slowing;
     }
-    const double fastest_rise = soil->largest_acceleration;
-    limit_by(fastest_rise > 0.0 ? 0.25 * sqrt(h / fastest_rise) : INFINITY, "the acceleration of the soil", step_length,
-             limit);
+    limit_by(soil->largest_acceleration > 0.0 ? 0.25 * sqrt(h / soil->largest_acceleration) : INFINITY,
+             "the acceleration of the soil", step_length, limit);
     limit_by(by_barrier, "the barrier between soil and rocks", step_length, limit);
     const double damping = soil->settings.scheme.damping;
     limit_by(damping > 0.0 ? 0.5 / damping : INFINITY, "the damping", step_length, limit);

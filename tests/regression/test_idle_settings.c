@@ -107,6 +107,7 @@ static void soil_that_is_released_after_the_ramp_is_told_of_its_weight(void **st
     expect_told(*state, ramp, bare, "!starts without stress");
     expect_both(*state, ramp, bare, "soil[0].released=10 ms", told);
     expect_both(*state, late, bare, "soil[0].released=10 ms", "has brought 0.5 of gravity");
+    expect_both(*state, late, bare, "soil[0].released=3 ms", "!starts without stress"); /* 0.06, hardly any */
 }
 
 static void maps_of_the_end_alone_are_warned_of(void **state)
@@ -171,6 +172,36 @@ static void run_out_of_soil_that_moves_is_warned_of(void **state)
     program_clear(&outcome);
 }
 
+/* Sand that begins without stress and bears 19 kPa at its base in the end, where 10 Pa were told to be usual. */
+static void stiffness_that_grows_in_the_run_is_warned_of_at_its_end(void **state)
+{
+    run_folder *folder = *state;
+    static const char sand[] =
+        "soil[0].material={model=\"hypoplastic_sand\"; density=2000; critical_friction_angle=0.58; "
+        "granulate_hardness=4e9; exponent=0.27; densest_void_ratio=0.68; critical_void_ratio=1.05; "
+        "loosest_void_ratio=1.2; alpha=0.14; beta=2.5; void_ratio=0.8; wave_pressure=10;}";
+    static const char told[] = "at the end of the run waves in the soil are up to";
+    char path[MOR_PATH_BYTES];
+    const char *const loaded[] = {"run",    "case.cfg",  "-t", "1",  "-o",
+                                  "loaded", "-s",        sand, "-s", "soil[0].initial_stress={type=\"none\";}",
+                                  "-s",     "end=0.1 s", NULL};
+    const char *const usual[] = {"run", "case.cfg",
+                                 "-t",  "1",
+                                 "-o",  "usual",
+                                 "-s",  sand,
+                                 "-s",  "soil[0].initial_stress={type=\"none\";}",
+                                 "-s",  "end=0.1 s",
+                                 "-s",  "soil[0].material.wave_pressure=10 kPa",
+                                 NULL};
+    finished_run_store_text(folder, column, path);
+    program_outcome outcome = program_run(folder, loaded, 0);
+    program_expect_text(outcome.errors, told);
+    program_clear(&outcome);
+    outcome = program_run(folder, usual, 0);
+    assert_null(strstr(outcome.errors, told));
+    program_clear(&outcome);
+}
+
 #define FOLDER_TEST(test) cmocka_unit_test_setup_teardown(test, run_folder_setup, run_folder_teardown)
 
 int main(void)
@@ -182,6 +213,7 @@ int main(void)
         FOLDER_TEST(maps_of_the_end_alone_are_warned_of),
         FOLDER_TEST(stages_warn_of_what_does_nothing),
         FOLDER_TEST(run_out_of_soil_that_moves_is_warned_of),
+        FOLDER_TEST(stiffness_that_grows_in_the_run_is_warned_of_at_its_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -146,8 +146,8 @@ static void warn_of_long_steps(mor_context *context, const mor_simulation *s)
 {
     const double slack = 1.05; /* of the Courant number */
     int64_t stiffest = 0;
-    const double ratio = find_stiffening(&s->soil, &stiffest);
-    if (!steps_follow(s) && ratio > slack) {
+    const double ratio = steps_follow(s) ? 1.0 : find_stiffening(&s->soil, &stiffest);
+    if (ratio > slack) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g "
                         "Pa) as the time step assumes, and the law '%s' does not declare the capability "

@@ -12,7 +12,7 @@
 
 enum { N = 3 * MOR_STRESS_BATCH + 5 };
 
-/* Clay of random preconsolidation, on which its stiffness depends. */
+/* Particles of a law under random pressures, on which the stiffness of clay depends. */
 typedef struct sample {
     law_point law;
     double density[N], stress[6 * N], numbers[MOR_MATERIAL_STATES_MAX][N];
