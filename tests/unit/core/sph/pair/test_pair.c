@@ -441,6 +441,21 @@ static void every_option_agrees_with_the_equations(void **state)
     }
 }
 
+/* From nearly the same repulsion for all pairs to one that only close pairs feel. The power takes the rounding of its
+ * base times the exponent: beyond 8 it would be more than ULPS, with any routine. */
+static void artificial_stress_follows_its_exponent(void **state)
+{
+    (void)state;
+    static const double exponents[] = {0.05, 1.0, 4.0, 8.0};
+    for (int option = 0; option < 2 * 4; ++option) {
+        assembly a;
+        assembly_open_mixed(&a, 2 + option % 2);
+        a.constants.artificial_exponent = exponents[option / 2];
+        compare_all_tables(&a);
+        assembly_close(&a);
+    }
+}
+
 /* Of one soil, or of two, whose border clusters see both. */
 static void every_part_of_the_scheme_agrees_with_the_equations(void **state)
 {
@@ -548,6 +563,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_option_agrees_with_the_equations),
+        cmocka_unit_test(artificial_stress_follows_its_exponent),
         cmocka_unit_test(every_part_of_the_scheme_agrees_with_the_equations),
         cmocka_unit_test(number_of_particles_need_not_fill_clusters),
         cmocka_unit_test(one_particle_alone_feels_nothing),
