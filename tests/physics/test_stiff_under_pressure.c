@@ -1,6 +1,8 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* Soil whose stiffness grows with its stress: steps follow it (docs/theory/time.md). */
+#include "cases/driver/scene/check/simulation_warnings.h"
+#include "cases/driver/scene/check/soil_stiffness.h"
 #include "tests/common/scene.h"
 
 /* Sand at a pressure of 1 MPa between smooth walls, in which a wave runs to and fro. Dissipation is made for 20 kPa. */
@@ -57,10 +59,69 @@ static void steps_are_those_of_the_pressure_in_the_soil(void **state)
     scene_expect_near("step", by_soil, by_user, 1e-9 * by_user); /* rounding of the density under that pressure */
 }
 
+/* Speed of a sand at 20 kPa, whatever its stress. */
+static mor_status tell_one_speed(const mor_material_instance *instance, const mor_batch *batch, double *speed)
+{
+    (void)instance;
+    for (int64_t i = 0; i < batch->n; ++i) {
+        speed[i] = 150.0;
+    }
+    return MOR_OK;
+}
+
+static void keep_text(void *user, mor_log_level level, const char *text)
+{
+    char *kept = user;
+    if (level == MOR_LOG_WARNING) {
+        snprintf(kept, MOR_CONTEXT_MESSAGE_BYTES, "%s", text);
+    }
+}
+
+/* What a law does tells how stiff it is, where its own word does not. */
+static void stiffness_that_a_law_does_not_tell_is_warned_of(void **state)
+{
+    (void)state;
+    char text[MOR_CONTEXT_MESSAGE_BYTES] = "";
+    mor_soil_stiffness found;
+    scene *it = scene_new(&(scene_request){.text = sand});
+    mor_soil *soil = &it->simulation.soil;
+    mor_soil_stiffness_find(soil, &found);
+    assert_true(found.measured > 500.0 && found.measured <= 1.001 * found.told); /* K of strains of 2e-6 */
+    const mor_material_instance *law = soil->material;
+    mor_material_instance silent = *law;
+    silent.operations.wave_speed = tell_one_speed;
+    soil->material = &silent;
+    it->context.log_sink = keep_text;
+    it->context.log_user = text;
+    mor_simulation_warn_of_stiffening(&it->context, &it->simulation, "");
+    mor_soil_stiffness silently = {0};
+    mor_soil_stiffness_find(soil, &silently);
+    soil->material = law;
+    assert_true(silently.measured == found.measured);
+    assert_non_null(strstr(text, "becomes stiffer than the wave speed that it tells"));
+    scene_free(it);
+}
+
+static void stiffness_of_a_law_that_keeps_it_is_what_it_tells(void **state)
+{
+    (void)state;
+    static const char *const block[] = {"soil[0].material={model='mohr_coulomb'; density=1600; youngs_modulus=4e6; "
+                                        "poissons_ratio=0.3; friction_angle=0.5;}",
+                                        NULL};
+    mor_soil_stiffness found;
+    scene *it = scene_new(&(scene_request){sand, (const char *const *[]){block}, 1, 1});
+    mor_soil_stiffness_find(&it->simulation.soil, &found);
+    assert_true(found.ratio == 1.0);
+    scene_expect_near("speed", found.measured, found.told, 1e-5 * found.told); /* strains of 2e-6 */
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(waves_in_sand_under_pressure_gain_no_energy),
+        cmocka_unit_test(stiffness_that_a_law_does_not_tell_is_warned_of),
+        cmocka_unit_test(stiffness_of_a_law_that_keeps_it_is_what_it_tells),
         cmocka_unit_test(steps_are_those_of_the_pressure_in_the_soil),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -362,6 +362,36 @@ static void wave_speed_that_changes_is_to_be_declared(void **state)
     assert_non_null(strstr(row->note, "MOR_MATERIAL_STIFFENS"));
 }
 
+static double reference_pressure; /* Pa */
+
+/* The speed of the law, and more where the pressure exceeds that of the bench. */
+static mor_status stiffen_under_pressure(const mor_material_instance *instance, const mor_batch *batch, double *speed)
+{
+    const mor_status status = law_named("drucker_prager")->operations.wave_speed(instance, batch, speed);
+    for (int64_t i = 0; i < batch->n && status == MOR_OK; ++i) {
+        const double *stress = batch->stress_in + 6 * i;
+        const double pressure = -(stress[0] + stress[1] + stress[2]) / 3.0;
+        speed[i] *= sqrt(fmax(pressure / reference_pressure, 1.0));
+    }
+    return status;
+}
+
+static void wave_speed_that_changes_under_large_stress_is_to_be_declared(void **state)
+{
+    (void)state;
+    const double soil[MOR_DRUCKER_PRAGER_COUNT] = {5.98e6, 0.3, 0.52, 1e3, 0.1, 0, 1};
+    mor_material law = *law_named("drucker_prager");
+    law.operations.wave_speed = stiffen_under_pressure;
+    mor_conformance_report report;
+    reference_pressure =
+        5.98e6; /* Young's modulus: above the stresses that random strains reach, below 100 times them */
+    conformance_run(&law, soil, &report);
+    assert_int_equal(conformance_find(&report, "wave speed that changes")->verdict, MOR_VERDICT_FAIL);
+    reference_pressure = INFINITY;
+    conformance_run(&law, soil, &report);
+    assert_int_equal(conformance_find(&report, "wave speed that changes")->verdict, MOR_VERDICT_PASS);
+}
+
 static void a_leak_is_noticed(void **state)
 {
     (void)state;
@@ -516,6 +546,7 @@ int main(void)
         cmocka_unit_test(a_failure_is_told_with_what_it_was_found_with),
         cmocka_unit_test(spin_is_compared_with_rest_where_stress_relaxes),
         cmocka_unit_test(wave_speed_that_changes_is_to_be_declared),
+        cmocka_unit_test(wave_speed_that_changes_under_large_stress_is_to_be_declared),
         cmocka_unit_test(a_leak_is_noticed),
         cmocka_unit_test(total_form_is_tried_by_its_own_laws),
     };

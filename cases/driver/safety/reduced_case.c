@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/material/params.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Share of the net force that opposes motion while a trial is damped, as in settling by relaxation. */
@@ -63,6 +64,29 @@ static mor_status check_case(mor_context *context, const mor_case *c)
         MOR_TRY(context, check_soil(context, &c->soils[k]));
     }
     return check_course(context, c);
+}
+
+/* Factors of laws that are stronger than Mohr and Coulomb's are on the unsafe side of charts and limit equilibrium. */
+static mor_status compare_strengths(mor_context *context, mor_reduced_case *it)
+{
+    const double slack = 0.03;
+    const mor_case *c = it->original;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *soil = &c->soils[k];
+        double pressure = 0.0;
+        double ratio = 0.0;
+        MOR_TRY(context, mor_strength_compare(context, soil->law, soil->density, soil->parameters, &pressure, &ratio));
+        it->mobilized[k] = ratio;
+        if (ratio > 1.0 + slack || ratio < 1.0 - slack) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s': in plane strain '%s' mobilizes %.3g times the strength of Mohr and Coulomb "
+                            "with the same friction angle and cohesion, so that factors of safety are %s than those of "
+                            "charts and of limit equilibrium by about as much; take model = \"mohr_coulomb\" to "
+                            "compare with them",
+                            soil->name, soil->model, ratio, ratio > 1.0 ? "larger, on the unsafe side," : "smaller");
+        }
+    }
+    return MOR_OK;
 }
 
 /* ---- The start --------------------------------------------------------------------------------------------------- */
@@ -146,7 +170,10 @@ mor_status mor_reduced_case_new(mor_context *context, const mor_case *original, 
     MOR_TRY(context, MOR_NEW(context, it, 1, "the case of trials"));
     (*it)->the_case = *original;
     (*it)->original = original;
-    const mor_status status = fill(context, *it);
+    mor_status status = fill(context, *it);
+    if (status == MOR_OK) {
+        status = compare_strengths(context, *it);
+    }
     if (status != MOR_OK) {
         mor_reduced_case_free(context, it);
     }
@@ -231,6 +258,9 @@ void mor_reduced_case_describe(const mor_reduced_case *it, FILE *out)
     for (int k = 0; k < c->n_soils; ++k) {
         fprintf(out, "soil '%s' (%s): ", c->soils[k].name, c->soils[k].model);
         mor_strength_describe(c->soils[k].law->parameters, out);
+        if (isfinite(it->mobilized[k])) {
+            fprintf(out, "; strength in plane strain: %.3f times that of Mohr and Coulomb", it->mobilized[k]);
+        }
         fprintf(out, "\n");
     }
     if (has_coulomb(c)) {

@@ -25,6 +25,8 @@ typedef struct mor_reduced_case {
     const mor_case *original; /* borrowed */
     mor_case_body *bodies;    /* shape [n_bodies of the case]; those of the_case; owned */
     mor_reduced_start start;
+    double mobilized[MOR_CASE_SOILS_MAX]; /* shape [n_soils of the case]; strength in plane strain over that of Mohr and
+                                           * Coulomb, 1; NaN: not known */
     double loaded; /* time at which gravity is whole and damping of the case is over, s; 0 unless ramped */
 } mor_reduced_case;
 

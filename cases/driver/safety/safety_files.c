@@ -116,6 +116,19 @@ static void put_rules(const mor_safety *it, FILE *out)
     put_number(out, "far_displacement [1]", rules->far, "},\n");
 }
 
+static void put_soils(const mor_safety *it, FILE *out)
+{
+    const mor_case *c = it->setup.reduced->original;
+    fprintf(out, "  \"soils\": [");
+    for (int k = 0; k < c->n_soils; ++k) {
+        fprintf(out, "%s{", k > 0 ? ", " : "");
+        put_text(out, "name", c->soils[k].name, ", ");
+        put_text(out, "model", c->soils[k].model, ", ");
+        put_number(out, "strength_over_mohr_coulomb [1]", it->setup.reduced->mobilized[k], "}");
+    }
+    fprintf(out, "],\n");
+}
+
 static void put_body(const mor_safety *it, FILE *out)
 {
     const mor_safety_body *body = &it->body;
@@ -179,6 +192,7 @@ mor_status mor_safety_write_summary(mor_context *context, const mor_safety *it, 
     put_number(out, "tolerance [1]", request->bracket.tolerance, ",\n  ");
     fprintf(out, "\"undecided\": %d,\n  \"contradicted\": %s,\n  \"stopped\": %s,\n", it->band.n_undecided,
             it->band.is_contradicted ? "true" : "false", it->is_stopped ? "true" : "false");
+    put_soils(it, out);
     put_rules(it, out);
     put_body(it, out);
     put_trials(it, out);

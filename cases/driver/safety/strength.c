@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/safety/strength.h"
 
+#include "core/base/context.h"
+#include "core/material/element/plane_shear.h"
 #include "core/material/params.h"
 
 #include <math.h>
@@ -87,4 +89,27 @@ mor_status mor_strength_check(mor_context *context, const mor_material *material
         "reduced; give it some",
         material->name);
     return MOR_OK;
+}
+
+mor_status mor_strength_compare(mor_context *context, const mor_material *material, double density,
+                                const double *parameters, double *pressure, double *ratio)
+{
+    const double part = 1e-3;     /* of Young's modulus */
+    const double stiffness = 1e8; /* Pa; where a law tells none */
+    const double phi = mor_params_role_value(material->parameters, parameters, MOR_ROLE_FRICTION_ANGLE, 0.0);
+    const double c = mor_params_role_value(material->parameters, parameters, MOR_ROLE_COHESION, 0.0);
+    mor_material_instance *instance = NULL;
+    double shear = NAN;
+    MOR_TRY(context, mor_material_create(context, material, density, parameters, &instance));
+    *pressure = part * mor_params_youngs_modulus(material->parameters, parameters, stiffness);
+    mor_status status = mor_plane_shear_find(context, instance, density, *pressure, &shear);
+    mor_material_destroy(context, &instance);
+    if (status != MOR_OK && status != MOR_ERROR_MEMORY) {
+        mor_context_log(context, MOR_LOG_INFO, "the strength of '%s' in plane strain is not known: %s", material->name,
+                        context->message);
+        mor_context_clear_error(context);
+        status = MOR_OK;
+    }
+    *ratio = shear / (*pressure * sin(phi) + c * cos(phi));
+    return status;
 }

@@ -26,6 +26,17 @@ mor_status mor_strength_check(mor_context *context, const mor_material *material
  *  @param reduced    [out]  shape [mor_params_count]; units of the schema; may alias parameters */
 void mor_strength_reduce(const mor_schema *schema, const double *parameters, double factor, double *reduced);
 
+/** Compares the strength that a law mobilizes in plane strain (core/material/element/plane_shear.h) with that of
+ *  Mohr and Coulomb for the same friction angle and cohesion, p sin(phi) + c cos(phi) at the mean stress p in the
+ *  plane. Theory: docs/theory/strength_reduction.md (F5).
+ *  @param density    [in]   > 0; unit kg/m3
+ *  @param parameters [in]   shape [mor_params_count]; units of the schema; mor_strength_check holds
+ *  @param pressure   [out]  p, a thousandth of Young's modulus, or 100 kPa; unit Pa
+ *  @param ratio      [out]  unit 1; NaN where the law reaches no strength, or admits no such pressure
+ *  Returns: MOR_OK; MOR_ERROR_MEMORY; what creating the law returns. */
+mor_status mor_strength_compare(mor_context *context, const mor_material *material, double density,
+                                const double *parameters, double *pressure, double *ratio);
+
 /** Prints what is reduced, as "cohesion / F, tan(friction_angle) / F".
  *  @param schema [in]      table ended by key NULL
  *  @param out    [in,out]  one open stream */

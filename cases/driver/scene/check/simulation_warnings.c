@@ -7,6 +7,7 @@
 #include "cases/driver/scene/check/resolution_advice.h"
 #include "cases/driver/scene/check/simulation_resolution.h"
 #include "cases/driver/scene/check/soil_neighbors.h"
+#include "cases/driver/scene/check/soil_stiffness.h"
 #include "cases/driver/scene/check/start_stress.h"
 #include "cases/driver/scene/check/wall_thickness.h"
 #include "cases/driver/scene/wall_seams.h"
@@ -100,36 +101,6 @@ static void warn_of_fields(mor_context *context, const mor_simulation *s)
     }
 }
 
-/* Largest ratio of the speed of waves in the soil as it begins to the one that step and impedance assume; 1 where the
- * law does not tell. */
-static double find_stiffening(const mor_soil *soil, int64_t *stiffest)
-{
-    enum { BATCH = 128 };
-    double largest = 1.0;
-    for (int64_t first = 0; first < soil->set.n_particles; first += BATCH) {
-        const int64_t left = soil->set.n_particles - first;
-        const double *state[MOR_MATERIAL_STATES_MAX];
-        double speeds[BATCH];
-        for (int k = 0; k < soil->material->n_state; ++k) {
-            const int field = soil->state_fields[k];
-            state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
-        }
-        const mor_batch batch = {.n = left < BATCH ? left : BATCH,
-                                 .density = soil->set.data[MOR_FIELD_DENSITY] + first,
-                                 .stress_in = soil->set.data[MOR_FIELD_STRESS] + 6 * first,
-                                 .state_in = state};
-        if (soil->material->operations.wave_speed(soil->material, &batch, speeds) != MOR_OK) {
-            return 1.0;
-        }
-        for (int64_t i = 0; i < batch.n; ++i) {
-            const double ratio = speeds[i] / mor_soil_sound_speed(soil, first + i);
-            *stiffest = ratio > largest ? first + i : *stiffest;
-            largest = fmax(largest, ratio);
-        }
-    }
-    return largest;
-}
-
 static double find_pressure(const mor_simulation *s, int64_t particle)
 {
     const double *stress = s->soil.set.data[MOR_FIELD_STRESS] + 6 * particle;
@@ -141,40 +112,54 @@ static bool steps_follow(const mor_simulation *s)
     return (s->soil.material->material->capabilities & MOR_MATERIAL_STIFFENS) != 0;
 }
 
-/* Steps follow the speed of waves in soil without stress where a law does not declare that it changes. */
-static void warn_of_long_steps(mor_context *context, const mor_simulation *s)
+/* Steps follow the speed of waves in soil without stress, and where a law declares it that which it tells for the
+ * present stress; how stiff it is shows in what it does. */
+static void warn_of_long_steps(mor_context *context, const mor_simulation *s, const mor_soil_stiffness *found,
+                               const char *when)
 {
     const double slack = 1.05; /* of the Courant number */
-    int64_t stiffest = 0;
-    const double ratio = steps_follow(s) ? 1.0 : find_stiffening(&s->soil, &stiffest);
+    const double assumed = steps_follow(s) ? found->told : s->soil.sound_speed;
+    const bool is_told = found->told > slack * assumed;
+    const double ratio = (is_told ? found->told : found->measured) / assumed;
     if (ratio > slack) {
-        mor_context_log(context, MOR_LOG_WARNING,
-                        "waves in the soil are up to %.3g times as fast under its initial stress (mean pressure %.3g "
-                        "Pa) as the time step assumes, and the law '%s' does not declare the capability "
-                        "MOR_MATERIAL_STIFFENS, by which steps would follow: add it, or set numerics.courant = %.2g or "
-                        "less",
-                        ratio, find_pressure(s, stiffest), s->soil.material->material->name,
-                        s->the_case->numerics.courant / ratio);
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "%swaves in the soil are up to %.3g times as fast (mean pressure %.3g Pa) as the time step assumes, for "
+            "the law '%s' %s, or set numerics.courant = %.2g or less",
+            when, ratio, find_pressure(s, is_told ? found->at_ratio : found->at_measured),
+            s->soil.material->material->name,
+            is_told ? "does not declare the capability MOR_MATERIAL_STIFFENS, by which steps would follow: add it"
+                    : "becomes stiffer than the wave speed that it tells, which may let waves gain energy: have it "
+                      "tell that of the largest stress (a parameter wave_speed of laws of other programs)",
+            s->the_case->numerics.courant / ratio);
     }
 }
 
-void mor_simulation_warn_of_stiffening(mor_context *context, const mor_simulation *simulation, const char *when)
+/* Dissipation and stress diffusion are those of soil without stress. */
+static void warn_of_weak_diffusion(mor_context *context, const mor_simulation *s, const mor_soil_stiffness *found,
+                                   const char *when)
 {
-    const mor_simulation *s = simulation;
     const mor_scheme *n = &s->the_case->numerics;
-    if (!s->has_soil || !steps_follow(s) || n->velocity_gradient == 0) {
-        return;
-    }
-    int64_t stiffest = 0;
-    const double ratio = find_stiffening(&s->soil, &stiffest);
-    if (n->stress_diffusion >= MOR_SCHEME_LEAST_DIFFUSION && n->stress_diffusion / ratio < MOR_SCHEME_LEAST_DIFFUSION) {
+    const double ratio = found->ratio;
+    if (steps_follow(s) && n->velocity_gradient != 0 && n->stress_diffusion >= MOR_SCHEME_LEAST_DIFFUSION &&
+        n->stress_diffusion / ratio < MOR_SCHEME_LEAST_DIFFUSION) {
         mor_context_log(
             context, MOR_LOG_WARNING,
             "%swaves in the soil are up to %.3g times as fast (mean pressure %.3g Pa) as those of the "
             "speed of sound, %.4g m/s, so that dissipation and stress diffusion are too weak for it by that "
             "factor: waves at surfaces and walls may gain energy and grow; use a numerics.stress_diffusion "
             "of %.2g, or a law whose speed of sound is that under the usual pressure",
-            when, ratio, find_pressure(s, stiffest), s->soil.sound_speed, MOR_SCHEME_LEAST_DIFFUSION * ratio);
+            when, ratio, find_pressure(s, found->at_ratio), s->soil.sound_speed, MOR_SCHEME_LEAST_DIFFUSION * ratio);
+    }
+}
+
+void mor_simulation_warn_of_stiffening(mor_context *context, const mor_simulation *simulation, const char *when)
+{
+    mor_soil_stiffness found;
+    if (simulation->has_soil) {
+        mor_soil_stiffness_find(&simulation->soil, &found);
+        warn_of_long_steps(context, simulation, &found, when);
+        warn_of_weak_diffusion(context, simulation, &found, when);
     }
 }
 
@@ -324,7 +309,6 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     if (simulation->has_soil) {
         warn_of_gas(context, simulation);
         warn_of_fields(context, simulation);
-        warn_of_long_steps(context, simulation);
         mor_simulation_warn_of_stiffening(context, simulation, "");
     }
     mor_plausible_warn(context, c);

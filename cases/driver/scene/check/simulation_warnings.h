@@ -15,11 +15,11 @@
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: some distances per particle of soil. */
 mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simulation);
 
-/** Logs a warning where waves in the soil as it is are so much faster than those without stress that the stress
- *  diffusion is too weak for a fitted gradient.
+/** Logs a warning where waves in the soil as it is are faster than the time step assumes, and another where they are so
+ *  much faster than those without stress that the stress diffusion is too weak for a fitted gradient.
  *  @param simulation [in]      with its present stress
  *  @param when       [in]      zero-terminated; what the warning begins with
- *  Cost: a wave speed per particle, of laws that declare that it changes. */
+ *  Cost: that of mor_soil_stiffness_find. */
 void mor_simulation_warn_of_stiffening(mor_context *context, const mor_simulation *simulation, const char *when);
 
 /** Prints each warning about a scene as a line "warning: ..." instead.

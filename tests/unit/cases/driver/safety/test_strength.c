@@ -178,6 +178,68 @@ static void what_is_reduced_is_told_in_words_of_the_law(void **state)
     assert_string_equal(text, "undrained_strength / F");
 }
 
+/* Strength of phi = 0.5 and 6 kPa, of no dilation and no softening. */
+static void fill_perfect(const mor_material *law, double *values)
+{
+    mor_params_defaults(law->parameters, values);
+    set_role(law, values, MOR_ROLE_YOUNGS_MODULUS, 1.0e7);
+    set_role(law, values, MOR_ROLE_POISSONS_RATIO, 0.3);
+    set_role(law, values, MOR_ROLE_FRICTION_ANGLE, 0.5);
+    set_role(law, values, MOR_ROLE_COHESION, 6000.0);
+}
+
+static double find_ratio(const mor_material *law, const double *values)
+{
+    mor_context context;
+    double pressure = 0.0;
+    double ratio = 0.0;
+    mor_context_init(&context);
+    if (mor_strength_compare(&context, law, 2000.0, values, &pressure, &ratio) != MOR_OK) {
+        fail_msg("%s", context.message);
+    }
+    assert_int_equal(context.memory_bytes, 0);
+    return ratio;
+}
+
+/* Flow of a cone sqrt(J2) = 3 a p + k that keeps the volume makes the third stress the mean of the others, so that
+ * sqrt(J2) is the shear stress in the plane, and all cones have the apex of Mohr and Coulomb: 3 a / sin(phi) times. */
+static void strength_in_plane_strain_is_that_of_the_surface(void **state)
+{
+    (void)state;
+    static const double plateau = 1e-3; /* growth of the stress over a doubling of the strain, at which shearing ends */
+    static const char *const exact[] = {"mohr_coulomb", "tresca"};
+    const double t = tan(0.5);
+    const double s = sin(0.5);
+    const double slopes[] = {t / sqrt(9.0 + 12.0 * t * t), 2.0 * s / (sqrt(3.0) * (3.0 - s)),
+                             2.0 * s / (sqrt(3.0) * (3.0 + s))};
+    double values[MOR_MATERIAL_PARAMETERS_MAX];
+    for (int k = 0; k < 2; ++k) {
+        const mor_material *law = find_law(exact[k]);
+        fill_perfect(law, values);
+        assert_true(fabs(find_ratio(law, values) - 1.0) < plateau);
+    }
+    const mor_material *cone = find_law("drucker_prager");
+    fill_perfect(cone, values);
+    for (int k = 0; k < 3; ++k) {
+        values[mor_params_offset(cone->parameters, mor_params_find(cone->parameters, "cone"))] = k;
+        const double ratio = find_ratio(cone, values);
+        if (!(fabs(ratio / (3.0 * slopes[k] / s) - 1.0) < plateau)) {
+            fail_msg("cone %d mobilizes %.9g, not %.9g", k, ratio, 3.0 * slopes[k] / s);
+        }
+    }
+}
+
+/* A cohesion that no strain of 1 comes to. */
+static void strength_that_is_never_reached_is_not_a_number(void **state)
+{
+    (void)state;
+    double values[MOR_MATERIAL_PARAMETERS_MAX];
+    const mor_material *law = find_law("mohr_coulomb");
+    fill_perfect(law, values);
+    set_role(law, values, MOR_ROLE_COHESION, 1.0e12);
+    assert_true(isnan(find_ratio(law, values)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +248,8 @@ int main(void)
         cmocka_unit_test(dilation_stays_until_the_friction_angle_limits_it),
         cmocka_unit_test(reduced_strength_is_accepted_by_the_law),
         cmocka_unit_test(laws_without_a_role_of_strength_are_refused_with_the_reason),
+        cmocka_unit_test(strength_in_plane_strain_is_that_of_the_surface),
+        cmocka_unit_test(strength_that_is_never_reached_is_not_a_number),
         cmocka_unit_test(what_is_reduced_is_told_in_words_of_the_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
