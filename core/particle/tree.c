@@ -116,7 +116,15 @@ static int longest_axis(const double *points, int stride, const int32_t *order, 
     return axis;
 }
 
-/* Splits what has more clusters than a block, beginning with the order that is given. */
+/* Orders the points of a part so that those from middle on come after the others along its longest axis. */
+static void divide(const mor_tree_points *it, int32_t *order, int64_t begin, int64_t middle, int64_t end)
+{
+    const view v = {it->points, it->numbers, it->stride, longest_axis(it->points, it->stride, order, begin, end)};
+    select_nth(&v, order, begin, end - 1, middle);
+}
+
+/* Splits what has more clusters than a block, beginning with the order that is given, and each cluster that stands
+ * alone into halves: narrow registers hold one half, and leave out what only the other one sees. */
 static void split(const mor_tree_points *it, int64_t block_clusters, int32_t *order)
 {
     struct {
@@ -129,14 +137,16 @@ static void split(const mor_tree_points *it, int64_t block_clusters, int32_t *or
         --depth;
         const int64_t begin = stack[depth].begin;
         const int64_t end = stack[depth].end;
+        const int64_t last = end * MOR_CLUSTER < it->n_points ? end * MOR_CLUSTER : it->n_points;
         if (end - begin <= block_clusters) {
+            const int64_t half = begin * MOR_CLUSTER + MOR_CLUSTER / 2;
+            if (block_clusters == 1 && half < last) {
+                divide(it, order, begin * MOR_CLUSTER, half, last);
+            }
             continue;
         }
         const int64_t middle = begin + mor_tree_left(end - begin);
-        const int64_t last = end * MOR_CLUSTER < it->n_points ? end * MOR_CLUSTER : it->n_points;
-        const view v = {it->points, it->numbers, it->stride,
-                        longest_axis(it->points, it->stride, order, begin * MOR_CLUSTER, last)};
-        select_nth(&v, order, begin * MOR_CLUSTER, last - 1, middle * MOR_CLUSTER);
+        divide(it, order, begin * MOR_CLUSTER, middle * MOR_CLUSTER, last);
         stack[depth].begin = begin;
         stack[depth++].end = middle;
         stack[depth].begin = middle;

@@ -38,8 +38,9 @@ void mor_tree_resize(mor_tree *tree, int64_t n_points);
 /** Frees what the tree owns; accepts a zeroed tree. */
 void mor_tree_clear(mor_context *context, mor_tree *tree);
 
-/** Finds an order in which every eight consecutive points form a compact cluster. Equal coordinates are told apart by
- *  place, so the order is a pure function of the points in their present order.
+/** Finds an order in which every eight consecutive points form a compact cluster, whose first four come before the
+ *  others along its longest axis. Equal coordinates are told apart by place, so the order is a pure function of the
+ *  points in their present order.
  *  @param points   [in]   shape [n_points, stride]; the first three numbers of a record are x, y, z; unit m
  *  @param stride   [in]   doubles per record, >= 3
  *  @param n_points [in]   number of points

@@ -362,18 +362,20 @@ static moments find_moments(scene *it)
     return sum;
 }
 
-/* A disordered block or cube under uneven stress, with hourglass displacements if there are any. */
+/* A disordered block or cube under uneven stress, with hourglass displacements if there are any. The seeds are such
+ * that what particles contribute at random does not cancel by chance. */
 static scene *new_twisted(int dimension, const char *numerics)
 {
     scene *it = dimension == 2 ? free_block_new(ONE, numerics) : new_cube(CUBE, numerics);
     double *hourglass = free_block_field(it, MOR_FIELD_HOURGLASS);
     free_block_disorder(it);
     for (int64_t k = 0; k < free_block_count(it); ++k) {
+        const uint64_t id = (uint64_t)it->simulation.soil.set.id[k];
         for (int a = 0; a < (dimension == 2 ? 4 : 6); ++a) {
-            free_block_field(it, MOR_FIELD_STRESS)[6 * k + a] = -1e4 * mor_random_uniform(3, (uint64_t)k, (uint64_t)a);
+            free_block_field(it, MOR_FIELD_STRESS)[6 * k + a] = -1e4 * mor_random_uniform(5, id, (uint64_t)a);
         }
         for (int a = 0; a < dimension && hourglass != NULL; ++a) {
-            hourglass[3 * k + a] = 1e-5 * (mor_random_uniform(4, (uint64_t)k, (uint64_t)a) - 0.5);
+            hourglass[3 * k + a] = 1e-5 * (mor_random_uniform(6, id, (uint64_t)a) - 0.5);
         }
     }
     return it;

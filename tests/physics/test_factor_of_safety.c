@@ -116,6 +116,8 @@ static void read_band(run_folder *folder, const char *name, double *stable, doub
     char *text = load(folder, name, "fos.json");
     *stable = read_number(text, "\"largest_stable [1]\": ");
     *fails = read_number(text, "\"smallest_failing [1]\": ");
+    const double strength = read_number(text, "\"strength_over_mohr_coulomb [1]\": ");
+    assert_true(strength > 0.9 && strength < 1.01); /* of mohr_coulomb and of cones that are as strong or weaker */
     free(text);
     if (getenv("MOR_TEST_SHOW") != NULL) {
         printf("%s: %.4f to %.4f\n", name, *stable, *fails);

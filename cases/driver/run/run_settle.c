@@ -4,6 +4,7 @@
 
 #include "cases/driver/picture/pictures.h"
 #include "cases/driver/run/wall_time.h"
+#include "cases/driver/scene/check/simulation_warnings.h"
 #include "core/io/durable_file.h"
 
 #include <stdio.h>
@@ -76,6 +77,9 @@ mor_status mor_run_settle(mor_context *context, mor_run_files *files)
                                           .user = files};
     const mor_status status = mor_simulation_settle(context, files->simulation, &observer);
     mor_run_progress_end(&files->progress);
+    if (status == MOR_OK && mor_simulation_settles(files->simulation)) {
+        mor_simulation_warn_of_stiffening(context, files->simulation, "after settling ");
+    }
     if (status != MOR_NOT_CONVERGED) {
         return status;
     }

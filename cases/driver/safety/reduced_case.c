@@ -73,17 +73,17 @@ static mor_status compare_strengths(mor_context *context, mor_reduced_case *it)
     const mor_case *c = it->original;
     for (int k = 0; k < c->n_soils; ++k) {
         const mor_case_soil *soil = &c->soils[k];
-        double pressure = 0.0;
-        double ratio = 0.0;
-        MOR_TRY(context, mor_strength_compare(context, soil->law, soil->density, soil->parameters, &pressure, &ratio));
-        it->mobilized[k] = ratio;
+        MOR_TRY(context, mor_strength_compare(context, soil->law, soil->density, soil->parameters, &it->pressures[k],
+                                              &it->mobilized[k]));
+        const double ratio = it->mobilized[k];
         if (ratio > 1.0 + slack || ratio < 1.0 - slack) {
             mor_context_log(context, MOR_LOG_WARNING,
-                            "soil '%s': in plane strain '%s' mobilizes %.3g times the strength of Mohr and Coulomb "
-                            "with the same friction angle and cohesion, so that factors of safety are %s than those of "
-                            "charts and of limit equilibrium by about as much; take model = \"mohr_coulomb\" to "
-                            "compare with them",
-                            soil->name, soil->model, ratio, ratio > 1.0 ? "larger, on the unsafe side," : "smaller");
+                            "soil '%s': in plane strain '%s' mobilizes up to %.3g times the strength of Mohr and "
+                            "Coulomb with the same friction angle and cohesion (at %.3g kPa), so that factors of "
+                            "safety are %s than those of charts and of limit equilibrium; to compare with these take "
+                            "model = \"mohr_coulomb\", or cone = \"matched\" of drucker_prager",
+                            soil->name, soil->model, ratio, 1e-3 * it->pressures[k],
+                            ratio > 1.0 ? "larger, on the unsafe side," : "smaller");
         }
     }
     return MOR_OK;
@@ -259,9 +259,11 @@ void mor_reduced_case_describe(const mor_reduced_case *it, FILE *out)
         fprintf(out, "soil '%s' (%s): ", c->soils[k].name, c->soils[k].model);
         mor_strength_describe(c->soils[k].law->parameters, out);
         if (isfinite(it->mobilized[k])) {
-            fprintf(out, "; strength in plane strain: %.3f times that of Mohr and Coulomb", it->mobilized[k]);
+            fprintf(out, "\n  strength in plane strain: %.3f times that of Mohr and Coulomb, at %.3g kPa\n",
+                    it->mobilized[k], 1e-3 * it->pressures[k]);
+        } else {
+            fprintf(out, "\n  strength in plane strain: not known\n");
         }
-        fprintf(out, "\n");
     }
     if (has_coulomb(c)) {
         fprintf(out, "Coulomb friction of walls and rocks with soil: coefficient / F\n");

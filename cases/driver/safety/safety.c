@@ -44,6 +44,9 @@ static mor_status prepare(mor_context *context, const mor_safety_request *reques
     if (status == MOR_OK) {
         status = load(context, request, it, simulation);
     }
+    if (status == MOR_OK && is_first) {
+        mor_simulation_warn_of_stiffening(context, simulation, "under its weight ");
+    }
     if (status == MOR_OK) {
         status = mor_safety_setup_keep(context, &it->setup, simulation, request->height);
     }

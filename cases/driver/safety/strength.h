@@ -31,8 +31,9 @@ void mor_strength_reduce(const mor_schema *schema, const double *parameters, dou
  *  plane. Theory: docs/theory/strength_reduction.md (F5).
  *  @param density    [in]   > 0; unit kg/m3
  *  @param parameters [in]   shape [mor_params_count]; units of the schema; mor_strength_check holds
- *  @param pressure   [out]  p, a thousandth of Young's modulus, or 100 kPa; unit Pa
- *  @param ratio      [out]  unit 1; NaN where the law reaches no strength, or admits no such pressure
+ *  @param pressure   [out]  p, a thousandth of Young's modulus, or 100 kPa where there is none, and so large that no
+ *                           stress in the plane becomes a tension; unit Pa
+ *  @param ratio      [out]  unit 1; NaN, with a warning, where the law reaches no strength, or admits no such pressure
  *  Returns: MOR_OK; MOR_ERROR_MEMORY; what creating the law returns. */
 mor_status mor_strength_compare(mor_context *context, const mor_material *material, double density,
                                 const double *parameters, double *pressure, double *ratio);

@@ -114,6 +114,9 @@ static inline const char *mor_simulation_counted_unit(const mor_simulation *simu
     return simulation->has_soil && simulation->bodies.n_groups > 0 ? "steps of soil particles" : "particle-steps";
 }
 
+/** Returns whether a region asks for an initial stress that settles. */
+bool mor_simulation_settles(const mor_simulation *simulation);
+
 /** Lists what a resumed run needs of the simulation but for its probes: asks each owner.
  *  @param list       [in,out]  borrows from the simulation
  *  Returns: MOR_OK; as mor_state_add. */

@@ -22,11 +22,12 @@ static mor_status list_integration(mor_context *context, mor_simulation *s, mor_
     return MOR_OK;
 }
 
-static bool has_settling(const mor_case *the_case)
+bool mor_simulation_settles(const mor_simulation *simulation)
 {
+    const mor_case *c = simulation->the_case;
     bool is_asked = false;
-    for (int k = 0; k < the_case->n_soils; ++k) {
-        is_asked = is_asked || the_case->soils[k].initial_stress == MOR_CASE_STRESS_SETTLED;
+    for (int k = 0; k < c->n_soils; ++k) {
+        is_asked = is_asked || c->soils[k].initial_stress == MOR_CASE_STRESS_SETTLED;
     }
     return is_asked;
 }
@@ -41,7 +42,7 @@ mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simul
     }
     MOR_TRY(context, list_integration(context, s, list));
     MOR_TRY(context, mor_state_add(context, list, own, "initial_energies", MOR_STATE_DOUBLE, 3, s->initial_energies));
-    if (has_settling(s->the_case)) {
+    if (mor_simulation_settles(s)) {
         MOR_TRY(context, mor_state_add(context, list, own, "settled", MOR_STATE_DOUBLE, MOR_SIMULATION_SETTLED_NUMBERS,
                                        s->settled));
     }

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-static const double RATE = 1e-4;      /* of strain, 1/s: slow, for laws that depend on it */
+static const double RATE = 1e-12;     /* of strain, 1/s: as good as at rest, for laws that depend on it */
 static const double FIRST = 1e-6;     /* strain of the first step, 1 */
 static const double GROWTH = 1.1;     /* of a step over the one before, 1 */
 static const double LONGEST = 1.0;    /* strain at which the search is given up, 1 */

@@ -9,7 +9,7 @@
  *  The strength that a law mobilizes in plane strain, whatever its parameters are called. */
 
 /** Shears a specimen in plane strain, from equal stress on all sides and with the mean of the two stresses in the plane
- *  kept, until its shear stress no longer grows.
+ *  kept, until its shear stress no longer grows; so slowly that rates do not count.
  *  @param instance [in]   of a law in rate form; borrowed
  *  @param density  [in]   > 0; unit kg/m3
  *  @param pressure [in]   > 0, kept as that mean; unit Pa

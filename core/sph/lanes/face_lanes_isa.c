@@ -3,8 +3,8 @@
 /* What is left of the faces that particles see. Compiled once per instruction set; MOR_ISA is its name. Principal
  * values and directions are those of core/base/eigen.h to the last bit. */
 #include "core/base/eigen.h"
+#include "core/particle/lane_math.h"
 #include "core/sph/lanes/soil_lanes.h"
-#include "core/sph/pair/lane_math.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
  * gradients and moments have no part out of the plane. */
 #include "core/sph/lanes/soil_lanes.h"
 
-#include "core/sph/pair/lane_math.h"
+#include "core/particle/lane_math.h"
 #include "core/sph/pair/pair.h"
 
 #include <stdbool.h>

@@ -42,7 +42,7 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const record_rows
 INLINE int find_chunk(geometries *chunk, int32_t *reached, target_list *list, const frame *f, const int dimension)
 {
 #if defined(MOR_SINGLE)
-    return find_reached(reached, list, f, 1, chunk, dimension);
+    return find_reached(reached, list, f, 1, chunk, NULL, dimension);
 #else
     (void)chunk, (void)f, (void)dimension;
     int n = 0;

@@ -4,7 +4,7 @@
 #define MOR_CORE_SPH_PAIR_PAIR_LANES_H
 
 #include "core/base/math.h"
-#include "core/sph/pair/lane_math.h"
+#include "core/particle/lane_math.h"
 #include "core/sph/pair/pair.h"
 
 #include <math.h>

@@ -366,8 +366,8 @@ INLINE void add_chunk(momentum_part *part, geometries *chunk, const momentum_row
     }
 }
 
-/* Chunks that are kept at once: in double precision the parts of a cluster take turns. */
-enum { KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
+/* Chunks that are kept at once: in double precision the parts of a cluster take turns, each with what it sees. */
+enum { SELECTS = sizeof(real) == sizeof(double) && PARTS > 1, KEPT = sizeof(real) == sizeof(float) ? PARTS : 1 };
 
 #if defined(MOR_SINGLE)
 /* Prefetches what is read of a cluster in double precision once the sums are known. */
@@ -406,12 +406,18 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     }
     int32_t *near = mor_relation_near(arrays->inner, cluster);
     int32_t n_near = 0;
+    uint64_t seen[PARTS];
+    int32_t of_part[CHUNK]; /* those that a part sees, where separations are not kept for all parts at once */
     while (list.entry < list.count) {
-        const int n = find_reached(near + n_near, &list, frames, PARTS, chunks, form.dimension);
+        const int n = find_reached(near + n_near, &list, frames, PARTS, chunks, seen, form.dimension);
         rows.targets.near = near + n_near;
         rows.targets.n = n;
         prepare_rows(&rows, form);
         for (int part = 0; part < PARTS && n > 0; ++part) {
+            if (SELECTS) {
+                rows.targets.n = select_targets(near + n_near, n, seen[part], of_part);
+                rows.targets.near = of_part;
+            }
             add_chunk(parts + part, chunks + part % KEPT, &rows, totals, c, form);
         }
         n_near += n;

@@ -104,16 +104,17 @@ INLINE void prefetch_ahead(const target_list *it, int32_t k)
  *  @param frames    [in]      shape [n_frames]; of the particles; one where there are two targets
  *  @param n_frames  [in]      1 to PARTS
  *  @param chunks    [in,out]  shape [n_frames], in double precision [1]; keep separations from one target a row
+ *  @param seen      [out]     shape [n_frames]; a bit for each target that is in reach of that part; of one part unset
  *  @param dimension [in]      2 or 3
  *  Returns: how many. */
 INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, const int n_frames, geometries *chunks,
-                        const int dimension)
+                        uint64_t *seen, const int dimension)
 {
     const real reach2 = near_reach2(frames);
     int32_t k = it->entry;
     int n = 0;
 #if TARGETS == 2
-    (void)n_frames, (void)chunks;
+    (void)n_frames, (void)chunks, (void)seen;
     while (k < it->count && n < CHUNK) {
         const int32_t next = k + 1 < it->count ? k + 1 : k;
         prefetch_ahead(it, k);
@@ -127,6 +128,9 @@ INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, 
         }
     }
 #else
+    for (int part = 0; part < n_frames && n_frames > 1; ++part) {
+        seen[part] = 0;
+    }
     for (; k < it->count && n < CHUNK; ++k) {
         const real *target = it->records + (int64_t)it->targets[k] * MOR_RECORD_SIZE;
         int any = 0;
@@ -136,14 +140,33 @@ INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, 
             separate(r, frames + part, target, dimension);
             const vec distance2 = squared(r, frames + part, dimension);
             keep_separation(chunks + (sizeof(real) == sizeof(float) ? part : 0), n, r, distance2, dimension);
-            any |= any_less(distance2, reach2);
+            const int is_seen = any_less(distance2, reach2) != 0;
+            any |= is_seen;
+            if (n_frames > 1) {
+                seen[part] |= (uint64_t)is_seen << n;
+            }
         }
         reached[n] = it->targets[k];
-        n += any != 0;
+        n += any;
     }
 #endif
     it->entry = k;
     return n;
+}
+
+/** Selects the targets of a chunk whose bits are set; returns their number.
+ *  @param targets  [in]   shape [n]
+ *  @param n        [in]   0 to CHUNK
+ *  @param bits_set [in]   a bit for each target
+ *  @param selected [out]  shape [n] */
+INLINE int select_targets(const int32_t *targets, int n, uint64_t bits_set, int32_t *selected)
+{
+    int count = 0;
+    for (int q = 0; q < n; ++q) {
+        selected[count] = targets[q];
+        count += (int)(bits_set >> q & 1U);
+    }
+    return count;
 }
 
 /* Rows are joined eight numbers at a time. */

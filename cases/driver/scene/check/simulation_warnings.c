@@ -14,6 +14,7 @@
 #include "core/base/math.h"
 #include "core/geometry/shape_analytic.h"
 #include "core/material/params.h"
+#include "core/material/rate_integration.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -112,25 +113,25 @@ static bool steps_follow(const mor_simulation *s)
     return (s->soil.material->material->capabilities & MOR_MATERIAL_STIFFENS) != 0;
 }
 
-/* Steps follow the speed of waves in soil without stress, and where a law declares it that which it tells for the
- * present stress; how stiff it is shows in what it does. */
+/* Steps follow the speed of waves in soil without stress, and with MOR_MATERIAL_STIFFENS that which the law declares
+ * for the present stress. The stiffness that the law shows may be another. */
 static void warn_of_long_steps(mor_context *context, const mor_simulation *s, const mor_soil_stiffness *found,
                                const char *when)
 {
     const double slack = 1.05; /* of the Courant number */
-    const double assumed = steps_follow(s) ? found->told : s->soil.sound_speed;
-    const bool is_told = found->told > slack * assumed;
-    const double ratio = (is_told ? found->told : found->measured) / assumed;
+    const double assumed = steps_follow(s) ? found->declared : s->soil.sound_speed;
+    const bool is_declared = found->declared > slack * assumed;
+    const double ratio = (is_declared ? found->declared : found->measured) / assumed;
     if (ratio > slack) {
         mor_context_log(
             context, MOR_LOG_WARNING,
             "%swaves in the soil are up to %.3g times as fast (mean pressure %.3g Pa) as the time step assumes, for "
-            "the law '%s' %s, or set numerics.courant = %.2g or less",
-            when, ratio, find_pressure(s, is_told ? found->at_ratio : found->at_measured),
+            "the law '%s' %s; or set numerics.courant = %.2g or less",
+            when, ratio, find_pressure(s, is_declared ? found->at_declared : found->at_measured),
             s->soil.material->material->name,
-            is_told ? "does not declare the capability MOR_MATERIAL_STIFFENS, by which steps would follow: add it"
-                    : "becomes stiffer than the wave speed that it tells, which may let waves gain energy: have it "
-                      "tell that of the largest stress (a parameter wave_speed of laws of other programs)",
+            is_declared ? "does not declare the capability MOR_MATERIAL_STIFFENS, by which steps would follow: add it"
+                        : "is stiffer than the wave speed that it declares, so that waves may gain energy: have it "
+                          "declare that of the largest stress (a parameter wave_speed of UMAT and MFront laws)",
             s->the_case->numerics.courant / ratio);
     }
 }
@@ -153,11 +154,31 @@ static void warn_of_weak_diffusion(mor_context *context, const mor_simulation *s
     }
 }
 
+/* What laws given by their rates have counted, of the one law or of the parts of a composite, is put back: a
+ * measurement is no part of the run. */
+typedef struct counts {
+    int64_t of[MOR_CASE_SOILS_MAX + 1][MOR_INTEGRATION_COUNTS];
+} counts;
+
+static void copy_counts(const mor_simulation *s, counts *kept, bool is_back)
+{
+    for (int k = 0; k <= MOR_CASE_SOILS_MAX; ++k) {
+        mor_material_instance *law = k < MOR_CASE_SOILS_MAX ? s->parts[k] : s->material;
+        int64_t *own = law != NULL ? mor_rate_integration_counts(law) : NULL;
+        if (own != NULL) {
+            memcpy(is_back ? own : kept->of[k], is_back ? kept->of[k] : own, sizeof kept->of[k]);
+        }
+    }
+}
+
 void mor_simulation_warn_of_stiffening(mor_context *context, const mor_simulation *simulation, const char *when)
 {
     mor_soil_stiffness found;
+    counts kept;
     if (simulation->has_soil) {
+        copy_counts(simulation, &kept, false);
         mor_soil_stiffness_find(&simulation->soil, &found);
+        copy_counts(simulation, &kept, true);
         warn_of_long_steps(context, simulation, &found, when);
         warn_of_weak_diffusion(context, simulation, &found, when);
     }

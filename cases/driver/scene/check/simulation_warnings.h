@@ -17,7 +17,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
 
 /** Logs a warning where waves in the soil as it is are faster than the time step assumes, and another where they are so
  *  much faster than those without stress that the stress diffusion is too weak for a fitted gradient.
- *  @param simulation [in]      with its present stress
+ *  @param simulation [in]      with its present stress; nothing of it changes
  *  @param when       [in]      zero-terminated; what the warning begins with
  *  Cost: that of mor_soil_stiffness_find. */
 void mor_simulation_warn_of_stiffening(mor_context *context, const mor_simulation *simulation, const char *when);

@@ -120,6 +120,27 @@ static void lattice_falls_into_blocks_of_two_by_two_by_two(void **state)
     }
 }
 
+/* Narrow registers hold a half: of a block of two by two by two one layer, also of a cluster that is not full. */
+static void halves_of_a_cluster_are_apart(void **state)
+{
+    (void)state;
+    double points[3 * LATTICE];
+    int32_t order[LATTICE];
+    fill_lattice(SIDE, SIDE, SIDE, points);
+    mor_tree_order(points, 3, LATTICE, order);
+    for (int half = 0; half < LATTICE / MOR_CLUSTER * 2; ++half) {
+        double box[6];
+        bound(points, 3, order, half * (MOR_CLUSTER / 2), (half + 1) * (MOR_CLUSTER / 2), box);
+        assert_true(box[3] - box[0] + box[4] - box[1] + box[5] - box[2] == 2.0); /* exact: whole numbers */
+    }
+    const double row[] = {0, 0, 0, 5, 0, 0, 1, 0, 0, 4, 0, 0, 2, 0, 0, 3, 0, 0};
+    mor_tree_order(row, 3, 6, order);
+    assert_permutation(order, 6);
+    for (int place = 0; place < MOR_CLUSTER / 2; ++place) {
+        assert_true(row[3 * (ptrdiff_t)order[place]] < 4.0);
+    }
+}
+
 static void plane_lattice_falls_into_blocks_of_two_by_four(void **state)
 {
     (void)state;
@@ -305,6 +326,7 @@ int main(void)
         cmocka_unit_test(order_is_a_permutation),
         cmocka_unit_test(order_is_a_permutation_even_of_points_that_are_not_numbers),
         cmocka_unit_test(lattice_falls_into_blocks_of_two_by_two_by_two),
+        cmocka_unit_test(halves_of_a_cluster_are_apart),
         cmocka_unit_test(plane_lattice_falls_into_blocks_of_two_by_four),
         cmocka_unit_test(clusters_of_other_lattices_are_nearly_as_compact),
         cmocka_unit_test(order_does_not_depend_on_the_unit_of_length),

@@ -123,6 +123,59 @@ static void slopes_with_packed_rocks_have_a_factor(void **state)
     end(&l);
 }
 
+static void keep_warning(void *user, mor_log_level level, const char *text)
+{
+    char *kept = user;
+    if (level == MOR_LOG_WARNING && strstr(text, "in plane strain") != NULL) {
+        snprintf(kept, MOR_CONTEXT_MESSAGE_BYTES, "%s", text);
+    }
+}
+
+/* Makes the case of trials of a soil; gives what is warned of and printed about its strength. */
+static void describe_strength(const char *law, char *warning, char *line)
+{
+    char text[4096];
+    mor_session *session = NULL;
+    mor_reduced_case *it = NULL;
+    snprintf(text, sizeof text,
+             HEAD "soil = ( { name = \"sand\"; shape = { type = \"box\"; min = (0, 0); max = (2, 2); };\n"
+                  "  material = { density = 2000; youngs_modulus = 1e7; poissons_ratio = 0.3; %s }; } );\n",
+             law);
+    warning[0] = '\0';
+    assert_int_equal(mor_session_new(&session), MOR_OK);
+    if (mor_session_load_text(session, "reduced.cfg", text) != MOR_OK) {
+        fail_msg("%s", mor_session_message(session));
+    }
+    session->context.log_sink = keep_warning;
+    session->context.log_user = warning;
+    assert_int_equal(mor_reduced_case_new(&session->context, &session->the_case, &it), MOR_OK);
+    FILE *out = fmemopen(line, MOR_CONTEXT_MESSAGE_BYTES, "w");
+    assert_non_null(out);
+    mor_reduced_case_describe(it, out);
+    fclose(out);
+    mor_reduced_case_free(&session->context, &it);
+    mor_session_free(&session);
+}
+
+static void strength_in_plane_strain_is_compared_with_mohr_and_coulomb(void **state)
+{
+    (void)state;
+    char warning[MOR_CONTEXT_MESSAGE_BYTES];
+    char line[MOR_CONTEXT_MESSAGE_BYTES];
+    describe_strength("model = \"mohr_coulomb\"; friction_angle = 0.5; cohesion = 20e3; tension_ratio = 0;", warning,
+                      line);
+    assert_string_equal(warning, "");
+    assert_non_null(strstr(line, "strength in plane strain: 1.000 times"));
+    describe_strength("model = \"drucker_prager\"; cone = \"matched\"; friction_angle = 0.5;", warning, line);
+    assert_string_equal(warning, "");
+    describe_strength("model = \"drucker_prager\"; cone = \"compression\"; friction_angle = 0.5;", warning, line);
+    assert_non_null(strstr(warning, "on the unsafe side"));
+    describe_strength("model = \"drucker_prager\"; friction_angle = 0.5;", warning, line);
+    assert_non_null(strstr(warning, "smaller"));
+    describe_strength("model = \"matsuoka_nakai\"; friction_angle = 0.5;", warning, line);
+    assert_non_null(strstr(warning, "on the unsafe side"));
+}
+
 static void expect_refusal(const char *text, const char *part)
 {
     mor_session *session = NULL;
@@ -178,6 +231,7 @@ static void soil_that_may_leave_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strength_in_plane_strain_is_compared_with_mohr_and_coulomb),
         cmocka_unit_test(slopes_with_packed_rocks_have_a_factor),
         cmocka_unit_test(friction_of_soil_is_reduced_and_rocks_stay),
         cmocka_unit_test(nothing_moves_and_lateral_stress_is_that_of_the_whole_strength),

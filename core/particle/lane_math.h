@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef MOR_CORE_SPH_PAIR_LANE_MATH_H
-#define MOR_CORE_SPH_PAIR_LANE_MATH_H
+#ifndef MOR_CORE_PARTICLE_LANE_MATH_H
+#define MOR_CORE_PARTICLE_LANE_MATH_H
 
 #include "core/base/math.h"
 #include "core/particle/lanes.h"
