@@ -116,7 +116,7 @@ static void print_plugins(FILE *out, const mor_case *the_case)
     }
 }
 
-static void print_sizes(FILE *out, const mor_simulation *s)
+static mor_status print_sizes(mor_context *context, FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
     int64_t n_walls = 0;
@@ -158,9 +158,10 @@ static void print_sizes(FILE *out, const mor_simulation *s)
     }
     mor_contact_report_print(c, out);
     mor_rocks_report_print(c, out);
-    mor_session_print_soils(out, s);
+    MOR_TRY(context, mor_session_print_soils(context, out, s));
     mor_event_report_print(out, s);
     mor_field_report_print(out, s);
+    return MOR_OK;
 }
 
 /* Length and cost of a common step: at the start, or once bodies touch. */
@@ -373,7 +374,7 @@ static mor_status print_explanation(mor_context *context, FILE *out, mor_simulat
     char *warnings = NULL;
     double seconds = NAN;
     mor_resolution resolution;
-    print_sizes(out, s);
+    MOR_TRY(context, print_sizes(context, out, s));
     mor_resolution_find(s, &resolution); /* of the start, as the warnings */
     MOR_TRY(context, find_warnings(context, s, &warnings));
     const mor_status status = print_costs(context, out, s, &seconds);
