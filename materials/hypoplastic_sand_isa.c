@@ -320,15 +320,15 @@ static mor_status sand_init_state(const mor_material_instance *instance, const m
 }
 
 /* Bulk modulus at a pressure: the linear part of (H4) in isotropic compression, times m_R (or m_T where that is more)
- * after a reversal of strain; or both parts in extension, where that is more, as without intergranular strain. */
+ * after a reversal of strain; or that of extension, where both parts add, if it is more. */
 static MOR_LANES_INLINE double find_bulk(const sand *m, double pressure, double void_ratio)
 {
     const double stiffest = m->reversal > m->turn ? m->reversal : m->turn;
     const double factor = m->range > 0.0 && stiffest > 1.0 ? stiffest : 1.0;
     const stiffness k = find_stiffness(m, (mor_symmetric){-pressure, -pressure, -pressure, 0.0, 0.0, 0.0}, void_ratio);
     const double linear = k.scale * (3.0 + k.cone2) * (1.0 / 9.0);
-    const double opened = linear + k.loosening * (SQRT3 / 9.0);
-    return factor * linear > opened ? factor * linear : opened;
+    const double extension = linear + k.loosening * (SQRT3 / 9.0);
+    return factor * linear > extension ? factor * linear : extension;
 }
 
 /* sqrt(K / rho) with the bulk modulus at no less than the pressure of reference. Where that is beyond what the grains

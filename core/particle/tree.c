@@ -125,7 +125,7 @@ static void divide(const mor_tree_points *it, int32_t *order, int64_t begin, int
 
 /* Splits what has more clusters than a block, beginning with the order that is given, and each cluster that stands
  * alone into halves: narrow registers hold one half, and leave out what only the other one sees. */
-static void split(const mor_tree_points *it, int64_t block_clusters, int32_t *order)
+static void split(const mor_tree_points *it, int64_t block_clusters, bool has_halves, int32_t *order)
 {
     struct {
         int64_t begin, end;
@@ -140,7 +140,7 @@ static void split(const mor_tree_points *it, int64_t block_clusters, int32_t *or
         const int64_t last = end * MOR_CLUSTER < it->n_points ? end * MOR_CLUSTER : it->n_points;
         if (end - begin <= block_clusters) {
             const int64_t half = begin * MOR_CLUSTER + MOR_CLUSTER / 2;
-            if (block_clusters == 1 && half < last) {
+            if (has_halves && half < last) {
                 divide(it, order, begin * MOR_CLUSTER, half, last);
             }
             continue;
@@ -165,19 +165,19 @@ void mor_tree_order(const double *points, int stride, int64_t n_points, int32_t 
 {
     const mor_tree_points all = {points, NULL, stride, n_points};
     start_order(n_points, order);
-    split(&all, 1, order);
+    split(&all, 1, true, order);
 }
 
 void mor_tree_order_blocks(const mor_tree_points *points, int64_t block_clusters, int32_t *order)
 {
     start_order(points->n_points, order);
-    split(points, block_clusters, order);
+    split(points, block_clusters, false, order);
 }
 
 void mor_tree_order_block(const mor_tree_points *points, int32_t *order)
 {
     start_order(points->n_points, order);
-    split(points, 1, order);
+    split(points, 1, true, order);
 }
 
 int64_t mor_tree_block_end(int64_t n_clusters, int64_t block_clusters, int64_t begin)

@@ -187,11 +187,12 @@ static void soils_and_their_friction_are_listed(void **state)
     /* c0 of Young's modulus 8 MPa and Poisson's ratio 0.4: sqrt(K/rho), K = 8 MPa/0.6 */
     program_expect_text(outcome.output,
                         "    clay                  drucker_prager                    1700             88.56 ");
-    /* 3 tan(phi) / sqrt(9 + 12 tan^2(phi)) over sin(phi), of 36 and 8 degrees; a thousandth of Young's modulus */
+    /* 3 tan(phi) / sqrt(9 + 12 tan^2(phi)) over sin(phi), of 36 and 8 degrees; at a thousandth of
+     * Young's modulus, or 3 c cos(phi) / (1 - sin(phi)) */
     program_expect_text(
         outcome.output,
         "    sand                  strength in plane strain 0.947 times that of Mohr and Coulomb, at 20 kPa\n"
-        "    clay                  strength in plane strain 0.997 times that of Mohr and Coulomb, at 8 kPa\n");
+        "    clay                  strength in plane strain 0.997 times that of Mohr and Coulomb, at 10.4 kPa\n");
     program_expect_text(outcome.output, "  friction with           sand           clay\n"
                                         "    wall base             rough          rough\n"
                                         "    wall front and 1 more smooth         smooth\n"

@@ -82,8 +82,8 @@ void mor_session_clear_case(mor_session *session);
  *  @param out [in,out]  one open stream */
 void mor_session_print_scheme(FILE *out, const mor_case *the_case);
 
-/** Prints the soils of a case as a table, what laws with a strength bear in plane strain, and the friction of walls and
- *  bodies with each soil; nothing without soil.
+/** Prints the soils of a case as a table, the strength of those that have one in plane strain, and the friction of
+ *  walls and bodies with each; nothing without soil.
  *  @param out [in,out]  one open stream
  *  Returns: MOR_OK; as mor_strength_compare. */
 mor_status mor_session_print_soils(mor_context *context, FILE *out, const mor_simulation *simulation);

@@ -1,11 +1,9 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* The soils of a case as a table, what they bear, and how walls and bodies slide on each of them. */
+/* The soils of a case as a table, their strength, and how walls and bodies slide on each of them. */
 #include "cases/driver/library/session_internal.h"
-#include "cases/driver/safety/strength.h"
-#include "core/material/params.h"
+#include "cases/driver/safety/strength_report.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Widths of columns, and the room for one friction. */
@@ -95,26 +93,6 @@ static void print_frictions(FILE *out, const mor_case *c)
     }
 }
 
-/* What laws with a friction angle or a cohesion bear in plane strain, which need not be what these say. */
-static mor_status print_strengths(mor_context *context, FILE *out, const mor_case *c)
-{
-    for (int k = 0; k < c->n_soils; ++k) {
-        const mor_case_soil *it = &c->soils[k];
-        const mor_schema *schema = it->law->parameters;
-        double pressure = 0.0;
-        double ratio = NAN;
-        if (mor_params_role_value(schema, it->parameters, MOR_ROLE_FRICTION_ANGLE, 0.0) > 0.0 ||
-            mor_params_role_value(schema, it->parameters, MOR_ROLE_COHESION, 0.0) > 0.0) {
-            MOR_TRY(context, mor_strength_compare(context, it->law, it->density, it->parameters, &pressure, &ratio));
-        }
-        if (isfinite(ratio)) {
-            fprintf(out, "    %-*s strength in plane strain %.3f times that of Mohr and Coulomb, at %.3g kPa\n",
-                    NAME_WIDTH - 1, it->name, ratio, 1e-3 * pressure);
-        }
-    }
-    return MOR_OK;
-}
-
 mor_status mor_session_print_soils(mor_context *context, FILE *out, const mor_simulation *s)
 {
     const mor_case *c = s->the_case;
@@ -129,7 +107,7 @@ mor_status mor_session_print_soils(mor_context *context, FILE *out, const mor_si
         fprintf(out, "    %-*s %-*s %15.6g %17.4g %12lld\n", NAME_WIDTH - 1, it->name, NAME_WIDTH, it->model,
                 it->density, speed, (long long)s->region_particles[k]);
     }
-    MOR_TRY(context, print_strengths(context, out, c));
+    MOR_TRY(context, mor_strength_report_print(context, out, c, NAME_WIDTH - 1));
     if (c->n_walls + c->n_bodies > 0) {
         print_frictions(out, c);
     }

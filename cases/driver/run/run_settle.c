@@ -77,7 +77,7 @@ mor_status mor_run_settle(mor_context *context, mor_run_files *files)
                                           .user = files};
     const mor_status status = mor_simulation_settle(context, files->simulation, &observer);
     mor_run_progress_end(&files->progress);
-    if (status == MOR_OK && mor_simulation_settles(files->simulation)) {
+    if (status == MOR_OK && mor_simulation_settles(files->simulation) && !mor_stop_is_requested(files->options->stop)) {
         mor_simulation_warn_of_stiffening(context, files->simulation, "after settling ");
     }
     if (status != MOR_NOT_CONVERGED) {

@@ -67,24 +67,32 @@ static mor_status check_case(mor_context *context, const mor_case *c)
 }
 
 /* Factors of laws that are stronger than Mohr and Coulomb's are on the unsafe side of charts and limit equilibrium. */
-static mor_status compare_strengths(mor_context *context, mor_reduced_case *it)
+static void warn_of_strength(mor_context *context, const mor_case_soil *soil, const mor_strength_ratio *found)
 {
     const double slack = 0.03;
-    const mor_case *c = it->original;
-    for (int k = 0; k < c->n_soils; ++k) {
-        const mor_case_soil *soil = &c->soils[k];
-        MOR_TRY(context, mor_strength_compare(context, soil->law, soil->density, soil->parameters, &it->pressures[k],
-                                              &it->mobilized[k]));
-        const double ratio = it->mobilized[k];
-        if (ratio > 1.0 + slack || ratio < 1.0 - slack) {
-            mor_context_log(context, MOR_LOG_WARNING,
-                            "soil '%s': in plane strain '%s' mobilizes up to %.3g times the strength of Mohr and "
-                            "Coulomb with the same friction angle and cohesion (at %.3g kPa), so that factors of "
-                            "safety are %s than those of charts and of limit equilibrium; to compare with these take "
-                            "model = \"mohr_coulomb\", or cone = \"matched\" of drucker_prager",
-                            soil->name, soil->model, ratio, 1e-3 * it->pressures[k],
-                            ratio > 1.0 ? "larger, on the unsafe side," : "smaller");
-        }
+    if (isnan(found->ratio)) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "soil '%s': how strong '%s' is in plane strain is not known, so that factors of safety may be "
+                        "larger than those of charts and of limit equilibrium: %s; try the law on the laws of "
+                        "mechanics, or take model = \"mohr_coulomb\"",
+                        soil->name, soil->model, found->why);
+    } else if (fabs(found->ratio - 1.0) > slack) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "soil '%s': in plane strain '%s' mobilizes up to %.3g times the strength of Mohr and "
+                        "Coulomb with the same friction angle and cohesion (at %.3g kPa), so that factors of "
+                        "safety are %s than those of charts and of limit equilibrium; to compare with these take "
+                        "model = \"mohr_coulomb\", or cone = \"matched\" of drucker_prager",
+                        soil->name, soil->model, found->ratio, 1e-3 * found->pressure,
+                        found->ratio > 1.0 ? "larger, on the unsafe side," : "smaller");
+    }
+}
+
+static mor_status compare_strengths(mor_context *context, mor_reduced_case *it)
+{
+    for (int k = 0; k < it->original->n_soils; ++k) {
+        const mor_case_soil *soil = &it->original->soils[k];
+        MOR_TRY(context, mor_strength_compare(context, soil->law, soil->density, soil->parameters, &it->strengths[k]));
+        warn_of_strength(context, soil, &it->strengths[k]);
     }
     return MOR_OK;
 }
@@ -258,11 +266,11 @@ void mor_reduced_case_describe(const mor_reduced_case *it, FILE *out)
     for (int k = 0; k < c->n_soils; ++k) {
         fprintf(out, "soil '%s' (%s): ", c->soils[k].name, c->soils[k].model);
         mor_strength_describe(c->soils[k].law->parameters, out);
-        if (isfinite(it->mobilized[k])) {
-            fprintf(out, "\n  strength in plane strain: %.3f times that of Mohr and Coulomb, at %.3g kPa\n",
-                    it->mobilized[k], 1e-3 * it->pressures[k]);
-        } else {
+        if (isnan(it->strengths[k].ratio)) {
             fprintf(out, "\n  strength in plane strain: not known\n");
+        } else {
+            fprintf(out, "\n  strength in plane strain: %.3f times that of Mohr and Coulomb, at %.3g kPa\n",
+                    it->strengths[k].ratio, 1e-3 * it->strengths[k].pressure);
         }
     }
     if (has_coulomb(c)) {

@@ -4,6 +4,7 @@
 #define MOR_CASES_DRIVER_SAFETY_REDUCED_CASE_H
 
 #include "cases/driver/case/case.h"
+#include "cases/driver/safety/strength.h"
 #include "core/base/context.h"
 
 #include <stdio.h>
@@ -25,9 +26,7 @@ typedef struct mor_reduced_case {
     const mor_case *original; /* borrowed */
     mor_case_body *bodies;    /* shape [n_bodies of the case]; those of the_case; owned */
     mor_reduced_start start;
-    double mobilized[MOR_CASE_SOILS_MAX]; /* shape [n_soils of the case]; largest strength in plane strain over that of
-                                           * Mohr and Coulomb, 1; NaN: not known */
-    double pressures[MOR_CASE_SOILS_MAX]; /* shape [n_soils of the case]; mean stresses at which it was found, Pa */
+    mor_strength_ratio strengths[MOR_CASE_SOILS_MAX]; /* shape [n_soils of the case] */
     double loaded; /* time at which gravity is whole and damping of the case is over, s; 0 unless ramped */
 } mor_reduced_case;
 

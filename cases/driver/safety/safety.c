@@ -44,7 +44,7 @@ static mor_status prepare(mor_context *context, const mor_safety_request *reques
     if (status == MOR_OK) {
         status = load(context, request, it, simulation);
     }
-    if (status == MOR_OK && is_first) {
+    if (status == MOR_OK && is_first && !is_stopping(request)) {
         mor_simulation_warn_of_stiffening(context, simulation, "under its weight ");
     }
     if (status == MOR_OK) {

@@ -124,7 +124,7 @@ static void put_soils(const mor_safety *it, FILE *out)
         fprintf(out, "%s{", k > 0 ? ", " : "");
         put_text(out, "name", c->soils[k].name, ", ");
         put_text(out, "model", c->soils[k].model, ", ");
-        put_number(out, "strength_over_mohr_coulomb [1]", it->setup.reduced->mobilized[k], "}");
+        put_number(out, "strength_over_mohr_coulomb [1]", it->setup.reduced->strengths[k].ratio, "}");
     }
     fprintf(out, "],\n");
 }

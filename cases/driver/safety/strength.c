@@ -5,6 +5,7 @@
 #include "core/base/context.h"
 #include "core/material/element/plane_shear.h"
 #include "core/material/params.h"
+#include "core/material/rate_integration.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,43 +92,29 @@ mor_status mor_strength_check(mor_context *context, const mor_material *material
     return MOR_OK;
 }
 
-/* A law that may be that of a plug-in, under a guard. */
-typedef struct shear_job {
-    mor_context *context;
-    const mor_material_instance *instance;
-    double density, pressure;
-    double shear;
-    mor_status status;
-} shear_job;
-
-static void find_shear(void *job)
-{
-    shear_job *it = job;
-    it->status = mor_plane_shear_find(it->context, it->instance, it->density, it->pressure, &it->shear);
-}
-
 mor_status mor_strength_compare(mor_context *context, const mor_material *material, double density,
-                                const double *parameters, double *pressure, double *ratio)
+                                const double *parameters, mor_strength_ratio *found)
 {
     const double part = 1e-3;     /* of Young's modulus */
     const double stiffness = 1e8; /* Pa; where a law tells none */
-    const double beyond = 2.0;    /* times the pressure at which the least stress is zero when it yields */
+    const double beyond = 3.0;    /* times the pressure at which Mohr and Coulomb's least stress is zero at yield */
     const double phi = mor_params_role_value(material->parameters, parameters, MOR_ROLE_FRICTION_ANGLE, 0.0);
     const double c = mor_params_role_value(material->parameters, parameters, MOR_ROLE_COHESION, 0.0);
     mor_material_instance *instance = NULL;
+    double shear = NAN;
+    *found = (mor_strength_ratio){.ratio = NAN};
     MOR_TRY(context, mor_material_create(context, material, density, parameters, &instance));
-    *pressure = fmax(part * mor_params_youngs_modulus(material->parameters, parameters, stiffness),
-                     beyond * c * cos(phi) / (1.0 - sin(phi)));
-    shear_job job = {context, instance, density, *pressure, NAN, MOR_OK};
-    const int signal = mor_guard_run(context->guard, find_shear, &job);
+    found->pressure = fmax(part * mor_params_youngs_modulus(material->parameters, parameters, stiffness),
+                           beyond * c * cos(phi) / (1.0 - sin(phi)));
+    mor_rate_integration_set_guard(instance, context->guard);
+    const mor_status status = mor_plane_shear_find(context, instance, density, found->pressure, &shear);
     mor_material_destroy(context, &instance);
-    if (signal != 0 || (job.status != MOR_OK && job.status != MOR_ERROR_MEMORY)) {
-        mor_context_log(context, MOR_LOG_WARNING, "the strength of '%s' in plane strain is not known: %s",
-                        material->name, signal != 0 ? "the law crashed" : context->message);
+    if (status == MOR_OK) {
+        found->ratio = shear / (found->pressure * sin(phi) + c * cos(phi));
+    } else if (status != MOR_ERROR_MEMORY) {
+        snprintf(found->why, sizeof found->why, "%.*s", (int)sizeof found->why - 1, context->message);
         mor_context_clear_error(context);
-        job.status = MOR_OK;
-        job.shear = NAN;
+        return MOR_OK;
     }
-    *ratio = job.shear / (*pressure * sin(phi) + c * cos(phi));
-    return job.status;
+    return status;
 }

@@ -26,17 +26,25 @@ mor_status mor_strength_check(mor_context *context, const mor_material *material
  *  @param reduced    [out]  shape [mor_params_count]; units of the schema; may alias parameters */
 void mor_strength_reduce(const mor_schema *schema, const double *parameters, double factor, double *reduced);
 
+/** The strength of a law in plane strain over that of Mohr and Coulomb. */
+typedef struct mor_strength_ratio {
+    double ratio;    /* 1; NaN: not known */
+    double pressure; /* mean stress in the plane at which it was found, Pa */
+    char why[256];   /* it is not known, zero-terminated; else "" */
+} mor_strength_ratio;
+
 /** Compares the strength that a law mobilizes in plane strain (core/material/element/plane_shear.h) with that of
  *  Mohr and Coulomb for the same friction angle and cohesion, p sin(phi) + c cos(phi) at the mean stress p in the
- *  plane. Theory: docs/theory/strength_reduction.md (F5).
+ *  plane: a thousandth of Young's modulus, or 100 kPa where there is none, and three times the pressure at which Mohr
+ *  and Coulomb's least stress is zero at yield, if that is more.
+ *  Theory: docs/theory/strength_reduction.md (F5).
  *  @param density    [in]   > 0; unit kg/m3
  *  @param parameters [in]   shape [mor_params_count]; units of the schema; mor_strength_check holds
- *  @param pressure   [out]  p, a thousandth of Young's modulus, or 100 kPa where there is none, and so large that no
- *                           stress in the plane becomes a tension; unit Pa
- *  @param ratio      [out]  unit 1; NaN, with a warning, where the law reaches no strength, or admits no such pressure
- *  Returns: MOR_OK; MOR_ERROR_MEMORY; what creating the law returns. */
+ *  @param found      [out]  one object
+ *  Returns: MOR_OK, also where the law reaches no strength, admits no such pressure, or crashes; MOR_ERROR_MEMORY; what
+ *  creating the law returns. */
 mor_status mor_strength_compare(mor_context *context, const mor_material *material, double density,
-                                const double *parameters, double *pressure, double *ratio);
+                                const double *parameters, mor_strength_ratio *found);
 
 /** Prints what is reduced, as "cohesion / F, tan(friction_angle) / F".
  *  @param schema [in]      table ended by key NULL

@@ -23,6 +23,7 @@ static const double SMALLEST_INCREMENT = 1e-9;
 
 struct mor_element_driver {
     const mor_material_instance *instance;
+    mor_guard guard;  /* of updates; NULL: none */
     double tolerance; /* 1 */
     mor_newton *newton;
     mor_element_control control;
@@ -95,6 +96,11 @@ mor_status mor_element_driver_new(mor_context *context, const mor_material_insta
     (*driver)->instance = instance;
     (*driver)->tolerance = tolerance;
     return MOR_OK;
+}
+
+void mor_element_driver_set_guard(mor_element_driver *driver, mor_guard guard)
+{
+    driver->guard = guard;
 }
 
 void mor_element_driver_free(mor_context *context, mor_element_driver **driver)
@@ -225,6 +231,19 @@ static void fill_point(mor_element_driver *driver, int n_points, int point, cons
     }
 }
 
+/* An update under a guard. */
+typedef struct guarded_update {
+    const mor_material_instance *instance;
+    const mor_batch *batch;
+    mor_status status;
+} guarded_update;
+
+static void advance(void *job)
+{
+    guarded_update *it = job;
+    it->status = it->instance->operations.advance_rate(it->instance, it->batch);
+}
+
 static mor_status update_points(mor_element_driver *driver, int n_points)
 {
     double *state_in[MOR_MATERIAL_STATES_MAX];
@@ -239,7 +258,8 @@ static mor_status update_points(mor_element_driver *driver, int n_points)
                              .stress_out = driver->stress_out,
                              .state_in = (const double *const *)state_in,
                              .state_out = state_out};
-    return driver->instance->operations.advance_rate(driver->instance, &batch);
+    guarded_update update = {driver->instance, &batch, MOR_OK};
+    return mor_guard_run(driver->guard, advance, &update) == 0 ? update.status : MOR_ERROR_CRASH;
 }
 
 /* The strain increment of the update: given components, and unknowns in units of strain_scale. */

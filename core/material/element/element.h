@@ -56,6 +56,11 @@ typedef struct mor_element_driver mor_element_driver;
 mor_status mor_element_driver_new(mor_context *context, const mor_material_instance *instance, double tolerance,
                                   mor_element_driver **driver);
 
+/** Guards the updates of the law from now on: one that crashes ends with MOR_ERROR_CRASH.
+ *  @param driver [in,out]  one object
+ *  @param guard  [in]      NULL: none, as at first */
+void mor_element_driver_set_guard(mor_element_driver *driver, mor_guard guard);
+
 /** Frees a driver and sets the pointer to NULL; NULL is accepted.
  *  @param driver  [in,out]  the address of one pointer */
 void mor_element_driver_free(mor_context *context, mor_element_driver **driver);

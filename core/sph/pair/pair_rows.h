@@ -170,7 +170,7 @@ INLINE int select_targets(const int32_t *targets, int n, uint64_t bits_set, int3
 }
 
 /* Rows are joined eight numbers at a time. */
-_Static_assert(CHUNK % TARGETS == 0 && MOR_RECORD_SIZE % 8 == 0 && MOR_RECORD_STRESS % 8 == 0 &&
+_Static_assert(CHUNK <= 64 && CHUNK % TARGETS == 0 && MOR_RECORD_SIZE % 8 == 0 && MOR_RECORD_STRESS % 8 == 0 &&
                    MOR_EXTRA_SIZE % 8 == 0 && MOR_PAIR_SINGLE_STRAIN % 8 == 0,
                "sizes of what is joined");
 
@@ -178,7 +178,7 @@ _Static_assert(CHUNK % TARGETS == 0 && MOR_RECORD_SIZE % 8 == 0 && MOR_RECORD_ST
 typedef struct record_rows {
     const real *records; /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
     const int32_t *near; /* shape [n]; the targets */
-    int n;               /* of them, 1 <= n <= CHUNK */
+    int n;               /* of them, 0 <= n <= CHUNK */
 #if TARGETS == 2
     real joined[ROWS][MOR_RECORD_SIZE * TARGETS] __attribute__((aligned(64)));
 #endif

@@ -84,7 +84,7 @@ static bool measure_batch(const mor_soil *soil, int64_t first, int64_t n, double
         }
         for (int64_t i = 0; i < n; ++i) {
             const double bulk = (pressures[i] - still[i]) / (-3.0 * side * STRAIN);
-            /* Loose soil is as fast as the law says it is at its own density. */
+            /* Laws tell their speed for the first density. */
             const double density = fmax(room.batch.density[i], mor_soil_reference_density(soil, first + i));
             speeds[i] = isfinite(bulk) ? fmax(speeds[i], sqrt(fmax(bulk, 0.0) / density)) : speeds[i];
         }

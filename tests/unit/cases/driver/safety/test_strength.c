@@ -188,17 +188,23 @@ static void fill_perfect(const mor_material *law, double *values)
     set_role(law, values, MOR_ROLE_COHESION, 6000.0);
 }
 
-static double find_ratio(const mor_material *law, const double *values)
+static mor_strength_ratio compare(const mor_material *law, const double *values, mor_guard guard)
 {
     mor_context context;
-    double pressure = 0.0;
-    double ratio = 0.0;
+    mor_strength_ratio found;
     mor_context_init(&context);
-    if (mor_strength_compare(&context, law, 2000.0, values, &pressure, &ratio) != MOR_OK) {
+    context.guard = guard;
+    if (mor_strength_compare(&context, law, 2000.0, values, &found) != MOR_OK) {
         fail_msg("%s", context.message);
     }
     assert_int_equal(context.memory_bytes, 0);
-    return ratio;
+    assert_int_equal(found.why[0] != '\0', isnan(found.ratio) != 0);
+    return found;
+}
+
+static double find_ratio(const mor_material *law, const double *values)
+{
+    return compare(law, values, NULL).ratio;
 }
 
 /* Flow of a cone sqrt(J2) = 3 a p + k that keeps the volume makes the third stress the mean of the others, so that
@@ -246,6 +252,22 @@ static void strength_that_is_never_reached_is_not_a_number(void **state)
     assert_true(isnan(find_ratio(law, values)));
 }
 
+/* A guard of which all work crashes. */
+static int crash_after(void (*work)(void *job), void *job)
+{
+    work(job);
+    return 11;
+}
+
+static void law_that_crashes_has_no_strength_and_loses_no_memory(void **state)
+{
+    (void)state;
+    double values[MOR_MATERIAL_PARAMETERS_MAX];
+    const mor_material *law = find_law("mohr_coulomb");
+    fill_perfect(law, values);
+    assert_true(isnan(compare(law, values, crash_after).ratio));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -256,6 +278,7 @@ int main(void)
         cmocka_unit_test(laws_without_a_role_of_strength_are_refused_with_the_reason),
         cmocka_unit_test(strength_in_plane_strain_is_that_of_the_surface),
         cmocka_unit_test(strength_that_is_never_reached_is_not_a_number),
+        cmocka_unit_test(law_that_crashes_has_no_strength_and_loses_no_memory),
         cmocka_unit_test(what_is_reduced_is_told_in_words_of_the_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
