@@ -266,12 +266,8 @@ void mor_reduced_case_describe(const mor_reduced_case *it, FILE *out)
     for (int k = 0; k < c->n_soils; ++k) {
         fprintf(out, "soil '%s' (%s): ", c->soils[k].name, c->soils[k].model);
         mor_strength_describe(c->soils[k].law->parameters, out);
-        if (isnan(it->strengths[k].ratio)) {
-            fprintf(out, "\n  strength in plane strain: not known\n");
-        } else {
-            fprintf(out, "\n  strength in plane strain: %.3f times that of Mohr and Coulomb, at %.3g kPa\n",
-                    it->strengths[k].ratio, 1e-3 * it->strengths[k].pressure);
-        }
+        fprintf(out, "\n  ");
+        mor_strength_print(&it->strengths[k], out);
     }
     if (has_coulomb(c)) {
         fprintf(out, "Coulomb friction of walls and rocks with soil: coefficient / F\n");

@@ -118,3 +118,13 @@ mor_status mor_strength_compare(mor_context *context, const mor_material *materi
     }
     return status;
 }
+
+void mor_strength_print(const mor_strength_ratio *found, FILE *out)
+{
+    if (isnan(found->ratio)) {
+        fprintf(out, "strength in plane strain not known: %s\n", found->why);
+    } else {
+        fprintf(out, "strength in plane strain %.3f times that of Mohr and Coulomb, at %.3g kPa\n", found->ratio,
+                1e-3 * found->pressure);
+    }
+}

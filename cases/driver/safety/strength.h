@@ -46,6 +46,11 @@ typedef struct mor_strength_ratio {
 mor_status mor_strength_compare(mor_context *context, const mor_material *material, double density,
                                 const double *parameters, mor_strength_ratio *found);
 
+/** Prints a ratio as a line, "strength in plane strain 1.000 times that of Mohr and Coulomb, at 20 kPa", or why it is
+ *  not known.
+ *  @param out [in,out]  one open stream */
+void mor_strength_print(const mor_strength_ratio *found, FILE *out);
+
 /** Prints what is reduced, as "cohesion / F, tan(friction_angle) / F".
  *  @param schema [in]      table ended by key NULL
  *  @param out    [in,out]  one open stream */

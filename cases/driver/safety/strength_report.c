@@ -5,8 +5,6 @@
 #include "cases/driver/safety/strength.h"
 #include "core/material/params.h"
 
-#include <math.h>
-
 mor_status mor_strength_report_print(mor_context *context, FILE *out, const mor_case *the_case, int name_width)
 {
     for (int k = 0; k < the_case->n_soils; ++k) {
@@ -18,12 +16,8 @@ mor_status mor_strength_report_print(mor_context *context, FILE *out, const mor_
             continue;
         }
         MOR_TRY(context, mor_strength_compare(context, it->law, it->density, it->parameters, &found));
-        fprintf(out, "    %-*s strength in plane strain ", name_width, it->name);
-        if (isnan(found.ratio)) {
-            fprintf(out, "not known: %s\n", found.why);
-        } else {
-            fprintf(out, "%.3f times that of Mohr and Coulomb, at %.3g kPa\n", found.ratio, 1e-3 * found.pressure);
-        }
+        fprintf(out, "    %-*s ", name_width, it->name);
+        mor_strength_print(&found, out);
     }
     return MOR_OK;
 }

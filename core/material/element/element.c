@@ -5,6 +5,7 @@
 #include "core/base/math.h"
 #include "core/base/memory.h"
 #include "core/material/element/newton.h"
+#include "core/material/guarded.h"
 
 #include <math.h>
 #include <string.h>
@@ -231,19 +232,6 @@ static void fill_point(mor_element_driver *driver, int n_points, int point, cons
     }
 }
 
-/* An update under a guard. */
-typedef struct guarded_update {
-    const mor_material_instance *instance;
-    const mor_batch *batch;
-    mor_status status;
-} guarded_update;
-
-static void advance(void *job)
-{
-    guarded_update *it = job;
-    it->status = it->instance->operations.advance_rate(it->instance, it->batch);
-}
-
 static mor_status update_points(mor_element_driver *driver, int n_points)
 {
     double *state_in[MOR_MATERIAL_STATES_MAX];
@@ -258,8 +246,7 @@ static mor_status update_points(mor_element_driver *driver, int n_points)
                              .stress_out = driver->stress_out,
                              .state_in = (const double *const *)state_in,
                              .state_out = state_out};
-    guarded_update update = {driver->instance, &batch, MOR_OK};
-    return mor_guard_run(driver->guard, advance, &update) == 0 ? update.status : MOR_ERROR_CRASH;
+    return mor_material_advance_guarded(driver->guard, driver->instance, &batch);
 }
 
 /* The strain increment of the update: given components, and unknowns in units of strain_scale. */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "core/sph/stress/stress_update.h"
 
+#include "core/material/guarded.h"
 #include "core/sph/stress/separation.h"
 
 #include <math.h>
@@ -130,25 +131,6 @@ static void copy_start(const mor_stress_update *it, int64_t first, int64_t n, ba
     }
 }
 
-/* A call of the material that may crash. */
-typedef struct guarded_call {
-    const mor_material_instance *material;
-    const mor_batch *batch;
-    mor_status status;
-} guarded_call;
-
-static void call_material(void *job)
-{
-    guarded_call *it = job;
-    it->status = it->material->operations.advance_rate(it->material, it->batch);
-}
-
-static mor_status advance_guarded(const mor_stress_update *it, const mor_batch *batch)
-{
-    guarded_call call = {.material = it->material, .batch = batch};
-    return mor_guard_run(it->guard, call_material, &call) == 0 ? call.status : MOR_ERROR_CRASH;
-}
-
 /* First particle of a batch that a law left with numbers that are not finite, n when there is none. A product with zero
  * is zero unless a factor is not finite. */
 static int64_t find_nonfinite(const mor_stress_update *it, const mor_batch *batch)
@@ -194,7 +176,7 @@ static mor_status advance_equal_steps(const mor_stress_update *it, int64_t first
     mor_status status = MOR_OK;
     failed->is_silent = false;
     for (int k = 0; k < n_steps && status == MOR_OK; ++k) {
-        status = it->guard != NULL ? advance_guarded(it, &batch)
+        status = it->guard != NULL ? mor_material_advance_guarded(it->guard, it->material, &batch)
                                    : it->material->operations.advance_rate(it->material, &batch);
     }
     const int64_t nonfinite = status == MOR_OK ? find_nonfinite(it, &batch) : n;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/scene/check/soil_stiffness.h"
 
-#include "core/base/guard.h"
+#include "core/material/guarded.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,9 +14,7 @@ static const double RATE = 1e-3;      /* 1/s: slow, for laws that depend on it *
 
 /* Some particles in a row, and room for an update of their law that nobody keeps. */
 typedef struct batch_room {
-    const mor_material_instance *material;
     mor_batch batch;
-    mor_status status;
     const double *state[MOR_MATERIAL_STATES_MAX];
     double *state_out[MOR_MATERIAL_STATES_MAX];
     double motion[9 * BATCH];
@@ -26,7 +24,6 @@ typedef struct batch_room {
 
 static void take_batch(const mor_soil *soil, int64_t first, int64_t n, batch_room *room)
 {
-    room->material = soil->material;
     for (int k = 0; k < soil->material->n_state; ++k) {
         const int field = soil->state_fields[k];
         room->state[k] = soil->set.data[field] + first * soil->set.fields[field].n_components;
@@ -42,12 +39,6 @@ static void take_batch(const mor_soil *soil, int64_t first, int64_t n, batch_roo
                               .state_out = room->state_out};
 }
 
-static void advance(void *job)
-{
-    batch_room *room = job;
-    room->status = room->material->operations.advance_rate(room->material, &room->batch);
-}
-
 /* Pressures after a strain of the same size along each axis; returns false where the law refuses. */
 static bool find_pressures(const mor_soil *soil, batch_room *room, double rate, double *pressures)
 {
@@ -55,7 +46,7 @@ static bool find_pressures(const mor_soil *soil, batch_room *room, double rate, 
     for (int64_t i = 0; i < room->batch.n; ++i) {
         room->motion[9 * i] = room->motion[9 * i + 4] = room->motion[9 * i + 8] = rate;
     }
-    if (mor_guard_run(soil->settings.guard, advance, room) != 0 || room->status != MOR_OK) {
+    if (mor_material_advance_guarded(soil->settings.guard, soil->material, &room->batch) != MOR_OK) {
         return false;
     }
     for (int64_t i = 0; i < room->batch.n; ++i) {
@@ -110,7 +101,7 @@ static void ask_all(const mor_soil *soil, int64_t first, int64_t n, double *spee
 {
     batch_room room;
     take_batch(soil, first, n, &room);
-    if (room.material->operations.wave_speed(room.material, &room.batch, speeds) != MOR_OK) {
+    if (soil->material->operations.wave_speed(soil->material, &room.batch, speeds) != MOR_OK) {
         memset(speeds, 0, (size_t)n * sizeof *speeds);
     }
 }
