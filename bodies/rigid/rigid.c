@@ -100,10 +100,15 @@ static mor_status start_group(mor_context *context, mor_rigid *rigid, const mor_
 mor_status mor_rigid_init(mor_context *context, mor_rigid *rigid, const char *name, int dimension, double spacing,
                           const mor_body_request *requests, const mor_rigid_motion *motions, int n_bodies)
 {
+    static const mor_field_info removed = {"removed", 1, "1", MOR_FIELD_OUTPUT,
+                                           "1: its body was removed and is not there any more; else 0"};
     memset(rigid, 0, sizeof *rigid);
     rigid->courant = COURANT;
     mor_status status = mor_body_group_init(context, &rigid->group, name, &mor_rigid_operations, rigid, dimension,
                                             spacing, requests, n_bodies, 0);
+    if (status == MOR_OK) {
+        status = mor_set_add_field(context, &rigid->group.set, &removed, &rigid->field_removed);
+    }
     if (status == MOR_OK) {
         status = start_group(context, rigid, motions);
     }
@@ -145,11 +150,18 @@ static void follow_states(mor_context *context, mor_rigid *rigid)
     }
 }
 
-/* Soil and contact see by the patches which bodies are there. */
+/* Soil and contact see by the patches which bodies are there, pictures by the particles. */
 static void show_removals(mor_rigid *rigid)
 {
+    double *shown = rigid->group.set.data[rigid->field_removed];
     for (int b = 0; b < rigid->group.n_bodies; ++b) {
-        rigid->group.boundary.patches[b].is_removed = rigid->states[b].removed > 0.0;
+        const mor_body *body = &rigid->group.bodies[b];
+        bool *is_removed = &rigid->group.boundary.patches[b].is_removed;
+        const bool changes = *is_removed != (rigid->states[b].removed > 0.0);
+        *is_removed = rigid->states[b].removed > 0.0;
+        for (int64_t i = body->first; i < body->first + body->n_particles && changes; ++i) {
+            shown[i] = rigid->states[b].removed;
+        }
     }
 }
 

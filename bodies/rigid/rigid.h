@@ -47,6 +47,7 @@ typedef struct mor_rigid {
     mor_rigid_state *states;     /* shape [n_bodies] */
     double courant;              /* share of a spring's period that a step may take, 1 */
     struct mor_rigid_work *work; /* constants of the bodies and forces held over a common step; owned */
+    int field_removed;           /* field of the set: 1 on particles of bodies that were removed, else 0; 1 */
 } mor_rigid;
 
 /** What rigid bodies are and do. A group that ends by its operation `destroy` lies in memory of its own. */

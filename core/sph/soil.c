@@ -484,15 +484,15 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     const double n = (double)soil->set.n_particles;
     const double padded = (double)(soil->tree.n_clusters * MOR_CLUSTER);
     double bytes = n * (sizeof *soil->set.id + sizeof *soil->order) + padded * MOR_RECORD_SIZE * sizeof(double);
-    bytes += (6.0 * n + 24.0 * (double)soil->tree.n_clusters) * sizeof(double);
+    bytes += (6.0 * n + 36.0 * (double)soil->tree.n_clusters) * sizeof(double);
     for (int field = 0; field < soil->set.n_fields; ++field) {
         bytes +=
             soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
     }
     bytes += soil->of_soil != NULL ? padded * (MOR_PAIR_OF_SOIL_SIZE * sizeof(double) + 1.0 / MOR_CLUSTER) : 0.0;
-    bytes += soil->regularization != NULL ? padded * 6.0 * sizeof(double) : 0.0;
-    bytes += soil->moments != NULL ? padded * 6.0 * sizeof(double) : 0.0;
-    bytes += soil->continued != NULL ? padded * 6.0 * sizeof(double) : 0.0;
+    const int n_tensors =
+        (soil->regularization != NULL) + (soil->moments != NULL) + (soil->continued != NULL) + (soil->closed != NULL);
+    bytes += n_tensors * padded * 6.0 * sizeof(double);
     bytes += (double)soil->tree.n_clusters * sizeof *soil->at_wall;
     bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
     bytes += soil->energy != NULL ? n * 17.0 * sizeof(double) : 0.0;
@@ -502,9 +502,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
                  : padded * mor_pair_singles_bytes(soil->extra != NULL, soil->settings.scheme.artificial_stress,
                                                    soil->settings.scheme.reconstruction == 1, soil->of_soil != NULL);
     bytes += soil->sleep.states != NULL ? mor_sleep_bytes(&soil->sleep) : 0.0;
-    bytes += soil->closed != NULL ? padded * 6.0 * sizeof(double) : 0.0;
     bytes += soil->extra != NULL ? padded * (double)MOR_EXTRA_SIZE * sizeof(double) : 0.0;
-    bytes += 2.0 * (double)soil->tree.n_clusters * 6.0 * sizeof(double);
     bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 3 * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {
         bytes += (double)soil->inner.capacities[buffer] * sizeof(int32_t);

@@ -55,6 +55,7 @@ typedef struct mor_soil_watch {
      *  looks. */
     void (*run)(mor_context *context, void *owner, const mor_soil_contact *contact, const double *records,
                 int64_t n_particles);
+    void (*leave)(void *owner, int64_t particle); /* likewise at a particle right before it leaves the domain */
 } mor_soil_watch;
 
 /** One soil. Owner: the run. */
@@ -109,7 +110,7 @@ typedef struct mor_soil {
     int n_walls;
     mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */
     int n_boundaries;
-    mor_soil_watch watch;                       /* of the forces on them; what it owns is borrowed */
+    mor_soil_watch watch;                       /* of these and of what leaves; the owner is borrowed */
     double sound_speed;                         /* c0, m/s; the largest of several soils */
     double smoothing_length;                    /* h, m */
     double lattice_moment;                      /* moment of the kernel gradient on it, 1 */

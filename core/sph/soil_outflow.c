@@ -59,8 +59,7 @@ static mor_status check_particles(mor_context *context, mor_soil *soil, const do
             return report_density(context, soil, view, step, i);
         }
         if (!is_inside(&soil->settings, x)) {
-            const bool is_place = isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
-            if (!soil->settings.removes_outflow || !is_place) {
+            if (!soil->settings.removes_outflow || !isfinite(x[0] + x[1] + x[2])) {
                 return report_stray(context, soil, view, step, i);
             }
             soil->has_outflow = true;
@@ -106,8 +105,8 @@ static double find_stored(const mor_soil *soil, const outflow_fields *from, int6
     }
     const mor_batch batch = {
         .n = 1, .density = from->density + i, .stress_in = from->stress + 6 * i, .state_in = state};
-    const bool is_known = soil->material->operations.energy(soil->material, &batch, &stored) == MOR_OK;
-    return is_known ? stored * from->mass[i] / from->density[i] : NAN;
+    const mor_status status = soil->material->operations.energy(soil->material, &batch, &stored);
+    return status == MOR_OK ? stored * from->mass[i] / from->density[i] : NAN;
 }
 
 /* Adds mass, momentum and energy of a particle. */
@@ -162,12 +161,14 @@ mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *
               "Enlarge 'domain', or let the run end before",
               soil->set.name, step->time + step->length, (unsigned long long)step->number);
     for (int64_t k = 0; k < n_out; ++k) {
+        if (soil->watch.leave != NULL) {
+            soil->watch.leave(soil->watch.owner, removed[k]);
+        }
         count_out(soil, &from, removed[k]);
     }
     mor_set_remove(&soil->set, removed, n_out);
     mor_view_renew(view);
     mor_soil_fit(soil);
-    soil->has_outflow = false;
     return MOR_OK;
 }
 

@@ -167,6 +167,37 @@ static void domain_may_grow_around_bodies(void **state)
 }
 
 /* Earlier rows have empty cells in the new column, and are otherwise as they were. */
+/* The domain ends 0.2 of a cell, and 0.6 of one, later: the number of cells is the same, their places are not. */
+static void maps_are_not_moved_by_a_larger_domain(void **state)
+{
+    static const char text[] =
+        "dimension = 3; spacing = '0.1 m'; gravity = (0, 0, -9.81); end = '0.02 s';"
+        "domain = { min = (-1, -1, -1); max = (1.6, 1.6, 2); };"
+        "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0, 0); max = (0.5, 0.5, 0.5); };"
+        "  initial_stress = { type = 'k0'; }; material = { model = 'drucker_prager'; density = 1900;"
+        "    youngs_modulus = '1 MPa'; poissons_ratio = 0.3; friction_angle = '40 deg'; cohesion = '50 kPa'; }; } );"
+        "walls = ( { name = 'floor'; friction = 'rough';"
+        "    shape = { type = 'half_space'; point = (0, 0, 0); normal = (0, 0, 1); }; } );"
+        "output = { pictures = false; snapshots = 2; };";
+    static const char *const wishes[] = {
+        "maps = { cell = '0.5 m'; };",
+        "gauges = ( { name = 'floor'; wall = 'floor'; direction = (0, 0, -1); cell = '1 m'; } );"};
+    static const char *const found[] = {"found maps that begin at (-1.3, -1) m, but at (-1, -1) m",
+                                        "found a map of pressure of gauge 'floor' that begins"};
+    run_folder *folder = *state;
+    for (int k = 0; k < 2; ++k) {
+        char path[MOR_PATH_BYTES];
+        char whole[2048];
+        const char *run = k == 0 ? "maps" : "gauge";
+        snprintf(whole, sizeof whole, "%s%s", text, wishes[k]);
+        finished_run_store_text(folder, whole, path);
+        RUN_QUIETLY(folder, run, "--stop-at", "10 ms");
+        program_outcome outcome = RUN(folder, run, 2, "--resume", "--set", "domain.min=(-1.3, -1, -1)");
+        program_expect_text(outcome.errors, found[k]);
+        program_clear(&outcome);
+    }
+}
+
 static void probe_may_be_added(void **state)
 {
     run_folder *folder = *state;
@@ -310,6 +341,7 @@ int main(void)
         TEST(finished_run_goes_on_to_a_later_end),
         TEST(domain_may_become_larger_only),
         TEST(domain_may_grow_around_bodies),
+        TEST(maps_are_not_moved_by_a_larger_domain),
         TEST(probe_may_be_added),
         TEST(energy_audit_cannot_begin_later),
         TEST(changed_buffer_of_a_mesh_is_another_case),

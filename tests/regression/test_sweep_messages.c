@@ -35,6 +35,11 @@ static void mistakes_are_told_once_and_with_their_place(void **state)
          "'0 deg';",
          "found a distribution of 'phi' with mean 30, deviation 0 in deg, whose deviation is not "
          "above zero"},
+        {"name = 'c'; key = 'soil[0].material.cohesion'; replicates = true; values = ( '1 kPa', '2 kPa', '1000 Pa' );",
+         "found members 1 and 3 with one and the same case"},
+        {"name = 'c'; key = 'soil[0].material.cohesion'; values = ( '1 kPa', '1000 Pa' );", NULL}, /* told apart */
+        {"name = 'seed'; key = 'seed'; replicates = true; values = ( 3000000000L, 3000000001L );", NULL},
+        {"name = 'seed'; key = 'seed'; from = 20261128000001L; to = 20261128000003L;", NULL},
     };
     run_folder *folder = *state;
     const char *const arguments[] = {"sweep", "sweep.cfg", "--plan", NULL};
@@ -57,8 +62,7 @@ static void cases_and_sweeps_are_told_apart(void **state)
     run_folder *folder = *state;
     store_sweep(folder, SMALL RUN_OUT "vary = ( { name = 'x'; key = 'end'; values = ( 0.1 ); } );");
     program_outcome outcome = program_run(folder, (const char *[]){"check", "sweep.cfg", NULL}, 2);
-    program_expect_text(outcome.errors,
-                        "found 'vary', which a sweep file has; allowed: a case; run it as a sweep");
+    program_expect_text(outcome.errors, "found 'vary', which a sweep file has; allowed: a case; run it as a sweep");
     program_clear(&outcome);
     outcome = program_run(folder, (const char *[]){"sweep", "case.cfg", "--plan", NULL}, 2);
     program_expect_text(outcome.errors, "found 'domain', which a case has; allowed: a sweep file");

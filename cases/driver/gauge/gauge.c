@@ -110,10 +110,9 @@ static bool is_structure(const mor_simulation *s, const mor_gauge *gauge, const 
                             : contact->boundary == &s->bodies.of[gauge->body].group->boundary;
 }
 
-static void watch_soil(mor_context *context, void *owner, const mor_soil_contact *contact, const double *records,
-                       int64_t n_particles)
+void mor_gauges_watch_soil(mor_context *context, mor_gauges *gauges, const mor_soil_contact *contact,
+                           const double *records, int64_t n_particles)
 {
-    mor_gauges *gauges = owner;
     const mor_simulation *s = gauges->simulation;
     for (int k = 0; k < gauges->n; ++k) {
         mor_gauge *gauge = &gauges->of[k];
@@ -355,7 +354,6 @@ mor_status mor_gauges_init(mor_context *context, mor_simulation *simulation, mor
     for (int k = 0; k < c->n_gauges; ++k) {
         MOR_TRY(context, init_gauge(context, simulation, &c->gauges[k], &gauges->of[k]));
     }
-    simulation->soil.watch = (mor_soil_watch){gauges, watch_soil};
     simulation->bodies.contact.watch = (mor_contact_watch){gauges, watch_contact};
     mor_gauges_start(gauges);
     return MOR_OK;
@@ -401,13 +399,35 @@ mor_status mor_gauges_list_state(mor_context *context, mor_gauges *gauges, mor_s
         if (n_signals == 0) {
             continue;
         }
-        const mor_gauge_map *map = &gauge->map;
+        mor_gauge_map *map = &gauge->map;
+        memcpy(map->frame, map->start, sizeof map->start);
+        memcpy(map->frame + 2, map->cell, sizeof map->cell);
+        MOR_TRY(context, mor_state_add(context, list, own, "map_frame", MOR_STATE_DOUBLE, 4, map->frame));
         MOR_TRY(context, mor_state_add(context, list, own, "map_now", MOR_STATE_DOUBLE, n_signals, map->now));
         MOR_TRY(context, mor_state_add(context, list, own, "map_filtered", MOR_STATE_DOUBLE, n_signals, map->filtered));
         MOR_TRY(context, mor_state_add(context, list, own, "map_peak", MOR_STATE_DOUBLE, n_signals, map->peak));
         MOR_TRY(context, mor_state_add(context, list, own, "map_time", MOR_STATE_DOUBLE, n_signals, map->time));
         MOR_TRY(context, mor_state_add(context, list, own, "map_memory", MOR_STATE_DOUBLE,
                                        mor_signal_filter_numbers(&gauge->filter, n_signals), map->memory));
+    }
+    return MOR_OK;
+}
+
+mor_status mor_gauges_resume(mor_context *context, const mor_gauges *gauges)
+{
+    for (int k = 0; k < gauges->n; ++k) {
+        const mor_gauge_map *map = &gauges->of[k].map;
+        const mor_case_gauge *asked = gauges->of[k].asked;
+        if (mor_gauge_map_cells(map) > 0 && (memcmp(map->frame, map->start, sizeof map->start) != 0 ||
+                                             memcmp(map->frame + 2, map->cell, sizeof map->cell) != 0)) {
+            return MOR_FAIL(context, MOR_ERROR_CONFIG,
+                            "%s:%d: found a map of pressure of gauge '%s' that begins %.9g m up with cells of %.9g m, "
+                            "but %.9g m with %.9g m in the run that is resumed: a map of a structure without end goes "
+                            "as far as the domain, which was changed; allowed: the domain of that run; give it again, "
+                            "or a region to the gauge from the start",
+                            asked->place.file, asked->place.line, asked->name, map->start[1], map->cell[1],
+                            map->frame[1], map->frame[3]);
+        }
     }
     return MOR_OK;
 }

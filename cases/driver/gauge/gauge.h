@@ -14,6 +14,7 @@
  *  for bodies take several sub-steps. What is remembered is state, which a checkpoint saves. */
 
 struct mor_simulation;
+struct mor_soil_contact;
 
 /** Who loads a structure. */
 typedef enum mor_gauge_source {
@@ -68,6 +69,7 @@ typedef struct mor_gauge_map {
     double cell[2];          /* sides of a cell, across and up, m */
     double across[3], up[3]; /* unit vectors in that plane, 1 */
     double start[2];         /* of the first cell from the origin, across and up, m */
+    double frame[4];         /* start and cell as a state has them, m */
     double area;             /* of a cell, m2 (m) */
     double *covered;  /* shape [cells]; area of a cell in which the structure lies, seen along the direction as it
                               * stands at first, m2 (m) */
@@ -131,6 +133,15 @@ void mor_gauges_start(mor_gauges *gauges);
 /** Lists what gauges remember.
  *  Returns: as mor_state_add. */
 mor_status mor_gauges_list_state(mor_context *context, mor_gauges *gauges, mor_state_list *list);
+
+/** Says whether a state that was put back belongs to these gauges.
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line where the cells of a map lie elsewhere. */
+mor_status mor_gauges_resume(mor_context *context, const mor_gauges *gauges);
+
+/** Takes up the forces of the soil on a boundary, as mor_soil_watch shows them.
+ *  @param records [in]  shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+void mor_gauges_watch_soil(mor_context *context, mor_gauges *gauges, const struct mor_soil_contact *contact,
+                           const double *records, int64_t n_particles);
 
 /** Takes up what happened in a step. To be called once after each. */
 void mor_gauges_follow(mor_gauges *gauges);

@@ -69,8 +69,7 @@ static mor_status split_spacings(mor_context *context, const char *text, level *
         }
         MOR_CHECK(
             context, *n < SPACINGS_MAX && length > 0 && length < WORD_BYTES, MOR_ERROR_CONFIG,
-            "found spacings '%s' that are empty, too long or too many; allowed: up to %d lengths, as '1 m, 0.5 m, "
-            "0.25 m'",
+            "found spacings '%s' that are empty, too long or too many; allowed: up to %d lengths, as '1 m, 0.5 m'",
             text, SPACINGS_MAX);
         memcpy(levels[*n].word, text, length);
         text = next;
@@ -81,20 +80,22 @@ static mor_status split_spacings(mor_context *context, const char *text, level *
 }
 
 /* All spacings are checked before the first is computed, by the words of the user. */
-static mor_status check_spacings(mor_context *context, const level *levels, int n)
+static mor_status check_spacings(mor_context *context, level *levels, int n)
 {
     mor_units *units = NULL;
     mor_status status = mor_units_new(context, &units);
-    for (int k = 0; k < n && status == MOR_OK; ++k) {
-        double spacing = 0.0;
+    for (level *it = levels; it < levels + n && status == MOR_OK; ++it) {
+        bool is_new = true; /* in the six digits by which its folder is named */
         const bool is_length =
-            levels[k].word[0] == '\0' ||
-            (mor_units_convert(context, units, levels[k].word, "m", &spacing) == MOR_OK && spacing > 0.0);
-        if (!is_length) {
+            it->word[0] == '\0' ||
+            (mor_units_convert(context, units, it->word, "m", &it->spacing) == MOR_OK && it->spacing > 0.0);
+        for (const level *other = levels; other < it; ++other) {
+            is_new = is_new && fabs(it->spacing - other->spacing) > 1.0e-5 * it->spacing;
+        }
+        if (!is_length || !is_new) {
             status = MOR_FAIL(context, MOR_ERROR_CONFIG,
-                              "found '%s' in the spacings, which is no length above 0; allowed: lengths, separated by "
-                              "commas, as '1 m, 0.5 m, 0.25 m'",
-                              levels[k].word);
+                              "found '%s' in the spacings, which %s; allowed: lengths, as '1 m, 0.5 m', each once",
+                              it->word, is_length ? "is there twice" : "is no length above 0");
         }
     }
     mor_units_free(context, &units);
@@ -220,7 +221,8 @@ static mor_status write_levels(mor_session *session, const level *levels, int n,
         char band[BAND_BYTES];
         const mor_safety_band *it = &levels[k].band;
         mor_safety_format_band(it, band, sizeof band);
-        fprintf(file.stream, "%.17g,%.17g,%.17g,%d\n", levels[k].spacing, it->stable, it->fails, it->n_undecided);
+        mor_safety_print_cells((double[]){levels[k].spacing, it->stable, it->fails}, 3, file.stream);
+        fprintf(file.stream, "%d\n", it->n_undecided);
         fprintf(session->output, "%12g  %-20s  %9d  ", levels[k].spacing, band, it->n_undecided);
         fprintf(session->output, k > 0 && isfinite(it->fails / levels[k - 1].band.fails) ? "%+.2f %%\n" : "-\n",
                 k > 0 ? 100.0 * (it->fails / levels[k - 1].band.fails - 1.0) : 0.0);

@@ -132,14 +132,13 @@ static mor_status check_members(mor_session_sweeper *it)
     MOR_TRY(context, status);
     mor_sweep_table_count(&it->table, -1, &counts);
     const int n_refused = counts.by_state[MOR_SWEEP_STATE_FAILED];
-    if (n_refused > 0) {
-        log_refused(it);
-    }
+    log_refused(it);
     MOR_CHECK(context, n_refused == 0 || (it->sweep.refused == MOR_SWEEP_REFUSED_SKIP && n_refused < counts.n_members),
               MOR_ERROR_CONFIG,
               "%s: the cases of %d of %d members are refused, see above; nothing was run; correct them%s",
               it->sweep.path, n_refused, counts.n_members,
               n_refused < counts.n_members ? ", or let refused_cases = \"skip\" count them as failed" : "");
+    MOR_TRY(context, mor_sweep_design_check_distinct(context, &it->design, it->case_hashes));
     MOR_TRY(context, mor_sweep_catalog_columns(context, &it->catalog, it->units, &it->sweep, &it->table));
     return mor_sweep_table_add_values(context, &it->table);
 }

@@ -113,7 +113,28 @@ mor_status mor_map_track_list_state(mor_context *context, mor_map_track *track, 
         MOR_TRY(context,
                 mor_state_add(context, list, own, "rock_places", MOR_STATE_DOUBLE, n_places, track->rock_places));
     }
+    memcpy(track->frame, track->grid.origin, sizeof track->grid.origin);
+    memcpy(track->frame + 2, track->grid.cell, sizeof track->grid.cell);
+    MOR_TRY(context, mor_state_add(context, list, own, "frame", MOR_STATE_DOUBLE, 4, track->frame));
     return mor_state_add(context, list, own, "last", MOR_STATE_DOUBLE, 1, &track->last);
+}
+
+mor_status mor_map_track_resume(mor_context *context, const mor_map_track *track)
+{
+    if (track == NULL) {
+        return MOR_OK;
+    }
+    const mor_map_grid *grid = &track->grid;
+    const mor_case_maps *maps = &track->simulation->the_case->maps;
+    MOR_CHECK(context,
+              memcmp(track->frame, grid->origin, sizeof grid->origin) == 0 &&
+                  memcmp(track->frame + 2, grid->cell, sizeof grid->cell) == 0,
+              MOR_ERROR_CONFIG,
+              "%s:%d: found maps that begin at (%.9g, %.9g) m, but at (%.9g, %.9g) m in the run that is resumed: they "
+              "go as far as the domain, which was changed; allowed: the domain of that run; give it again, or start a "
+              "run anew",
+              maps->place.file, maps->place.line, grid->origin[0], grid->origin[1], track->frame[0], track->frame[1]);
+    return MOR_OK;
 }
 
 /* ---- Sums -------------------------------------------------------------------------------------------------------- */

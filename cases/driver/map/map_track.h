@@ -35,6 +35,7 @@ typedef struct mor_map_track {
     double *kept[MOR_MAP_KEPT_COUNT]; /* shape [cells] each; NULL: of soil or rocks that the case does not have */
     double *rock_places;              /* shape [n_bodies, 2]; of the centers at the last measurement, m */
     double last;                      /* time of the last measurement, s */
+    double frame[4];                  /* origin and cell of the grid as a state has them, m */
 } mor_map_track;
 
 /** Prepares to follow a simulation that is built but for this: fills in simulation->maps; nothing where the case wants
@@ -52,6 +53,11 @@ void mor_map_track_free(mor_context *context, mor_map_track **track);
  *  @param list    [in,out]  borrows from the track
  *  Returns: as mor_state_add. */
 mor_status mor_map_track_list_state(mor_context *context, mor_map_track *track, mor_state_list *list);
+
+/** Says whether a state that was put back belongs to this grid.
+ *  @param track [in]  NULL: nothing is done
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with file and line where its cells lie elsewhere. */
+mor_status mor_map_track_resume(mor_context *context, const mor_map_track *track);
 
 /** Forgets everything and measures the state at time zero. To be called once before the first step, not after a resume.
  *  @param track [in,out]  NULL: nothing is done */

@@ -47,32 +47,11 @@ void mor_picture_wall_move(const mor_case *the_case, int wall, const mor_motion 
     }
 }
 
-/* Whether a body of a set, which holds those of one model in the order of the case, is not there any more. */
-static bool is_body_removed(const mor_case *the_case, const char *set, int number, double time)
-{
-    int n = 0;
-    for (int b = 0; b < the_case->n_bodies; ++b) {
-        const mor_case_body *it = &the_case->bodies[b];
-        if (strcmp(it->model, set) == 0 && n++ == number) {
-            return mor_simulation_is_removed(it->removed_at, time);
-        }
-    }
-    return false;
-}
-
-int64_t mor_picture_leave_out_removed(const mor_case *the_case, const char *set, double time, int64_t n, double *part,
-                                      double *position, double *value)
+int64_t mor_picture_leave_out_removed(const double *removed, int64_t n, double *part, double *position, double *value)
 {
     int64_t n_left = 0;
-    int last = -1; /* particles of a body follow one another */
-    bool is_removed = false;
     for (int64_t i = 0; i < n; ++i) {
-        const int body = (int)part[i];
-        if (body != last) {
-            is_removed = is_body_removed(the_case, set, body, time);
-            last = body;
-        }
-        if (is_removed) {
+        if (removed[i] > 0.0) {
             continue;
         }
         memmove(position + 3 * n_left, position + 3 * i, 3 * sizeof *position);

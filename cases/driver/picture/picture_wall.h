@@ -25,16 +25,14 @@ void mor_picture_wall_widen(mor_bounds *bounds, const double *position, int64_t 
 void mor_picture_wall_move(const mor_case *the_case, int wall, const mor_motion *motion, const double *times,
                            mor_lattice_points *points);
 
-/** Leaves out the particles of bodies that are not there any more at a time.
- *  @param set      [in]      zero-terminated; name of their set
- *  @param time     [in]      unit s
+/** Leaves out the particles of bodies that are not there any more.
+ *  @param removed  [in]      shape [n], 1; above 0 for these particles
  *  @param n        [in]      number of particles
  *  @param part     [in,out]  shape [n]; number of the body of each in the set
  *  @param position [in,out]  shape [n,3], m
  *  @param value    [in,out]  shape [n]; colors; NULL: none
  *  Returns: number of particles that are left, which come first. */
-int64_t mor_picture_leave_out_removed(const mor_case *the_case, const char *set, double time, int64_t n, double *part,
-                                      double *position, double *value);
+int64_t mor_picture_leave_out_removed(const double *removed, int64_t n, double *part, double *position, double *value);
 
 /** Returns whether a wall is a structure: it is fixed, bounded in all directions, does not reach beyond the moving
  *  particles on all sides as seen from above, and leaves them at least a quarter of the picture.

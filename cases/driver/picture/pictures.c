@@ -124,6 +124,19 @@ static void label_layer(layer *l, int n_bodies)
     }
 }
 
+/* Bodies that were removed stay in the snapshots, with a mark. */
+static mor_status leave_out_removed(mor_context *context, const mor_snapshot *snapshot, layer *l)
+{
+    double *removed = NULL;
+    if (mor_snapshot_find_field(l->set, "removed") == NULL) {
+        return MOR_OK; /* of bodies that cannot be */
+    }
+    MOR_TRY(context, read_field(context, snapshot, l->set, "removed", &removed));
+    l->n = mor_picture_leave_out_removed(removed, l->n, l->part, l->position, l->value);
+    MOR_FREE(context, &removed);
+    return MOR_OK;
+}
+
 static mor_status read_layer(mor_context *context, gallery *g, const mor_snapshot *snapshot, layer *l)
 {
     const mor_snapshot_field *body = mor_snapshot_find_field(l->set, "body");
@@ -138,8 +151,7 @@ static mor_status read_layer(mor_context *context, gallery *g, const mor_snapsho
     }
     if (!l->is_soil && body != NULL && body->n_components == 1) {
         MOR_TRY(context, read_field(context, snapshot, l->set, "body", &l->part));
-        l->n = mor_picture_leave_out_removed(g->the_case, l->set->name, snapshot->time, l->n, l->part, l->position,
-                                             l->value);
+        return leave_out_removed(context, snapshot, l);
     }
     return MOR_OK;
 }

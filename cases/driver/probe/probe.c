@@ -110,9 +110,13 @@ static mor_status toe(mor_context *context, const view *v, double *value)
     if (simulation->has_soil) {
         outermost = find_toe(v, v->points.position, v->points.n_points, outermost);
     }
-    for (int g = 0; g < simulation->bodies.n_groups && v->soil < 0; ++g) {
-        const mor_set *set = &simulation->bodies.groups[g]->set;
-        outermost = find_toe(v, set->data[MOR_FIELD_POSITION], set->n_particles, outermost);
+    for (int k = 0; k < simulation->the_case->n_bodies && v->soil < 0; ++k) {
+        const mor_simulation_body *it = &simulation->bodies.of[k];
+        const mor_body *body = &it->group->bodies[it->index];
+        if (!body->is_held && mor_simulation_body_is_there(&simulation->bodies, k)) {
+            const double *positions = it->group->set.data[MOR_FIELD_POSITION] + 3 * body->first;
+            outermost = find_toe(v, positions, body->n_particles, outermost);
+        }
     }
     *value = isfinite(outermost) ? outermost : 0.0;
     return MOR_OK;
@@ -178,8 +182,9 @@ static mor_status elastic_energy(mor_context *context, const view *v, double *va
     return MOR_OK;
 }
 
-/* The potential of the placed origin, by which a probe's own datum differs from the simulation's. */
-static double find_offset(const view *v)
+/* The potential of the placed origin, by which a probe's own datum differs from the simulation's, of the mass that is
+ * there or that was at the start. */
+static double find_offset(const view *v, bool is_of_start)
 {
     double origin[3];
     double offset[3];
@@ -191,32 +196,27 @@ static double find_offset(const view *v)
     if (height == 0.0) {
         return 0.0;
     }
-    double mass = mor_measure_mass(&v->points);
-    for (int g = 0; g < v->simulation->bodies.n_groups; ++g) {
-        const mor_body_group *group = v->simulation->bodies.groups[g];
-        for (int b = 0; b < group->n_bodies; ++b) {
-            mass += group->bodies[b].mass;
-        }
-    }
-    return mass * height;
+    const double gone = is_of_start ? v->simulation->soil.outflow[MOR_SOIL_OUTFLOW_MASS] : 0.0;
+    const double bodies = mor_simulation_bodies_mass(&v->simulation->bodies, is_of_start);
+    return (mor_measure_mass(&v->points) + gone + bodies) * height;
 }
 
 static mor_status potential_energy(mor_context *context, const view *v, double *value)
 {
-    *value = mor_probe_energies(context, v)[1] + find_offset(v);
+    *value = mor_probe_energies(context, v)[1] + find_offset(v, false);
     return MOR_OK;
 }
 
 static mor_status total_energy(mor_context *context, const view *v, double *value)
 {
-    *value = mor_probe_total_energy(context, v) + find_offset(v);
+    *value = mor_probe_total_energy(context, v) + find_offset(v, false);
     return MOR_OK;
 }
 
 static mor_status energy_left(mor_context *context, const view *v, double *value)
 {
     MOR_TRY(context, total_energy(context, v, value));
-    const double initial = mor_simulation_initial_energy(v->simulation) + find_offset(v);
+    const double initial = mor_simulation_initial_energy(v->simulation) + find_offset(v, true);
     *value = initial != 0.0 ? *value / initial : NAN; /* nothing to measure by */
     return MOR_OK;
 }
@@ -231,12 +231,8 @@ static double sum_outflow(const view *v, const double *datum)
 
 static mor_status dissipated_energy(mor_context *context, const view *v, double *value)
 {
-    *value = mor_simulation_initial_energy(v->simulation) - mor_probe_total_energy(context, v);
-    if (v->simulation->has_soil) {
-        double origin[3];
-        mor_simulation_place_point(v->simulation->the_case, (const double[3]){0.0, 0.0, 0.0}, origin);
-        *value -= sum_outflow(v, origin);
-    }
+    *value = mor_simulation_initial_energy(v->simulation) - mor_probe_total_energy(context, v) -
+             mor_probe_energy_gone(v->simulation);
     return MOR_OK;
 }
 
@@ -338,94 +334,95 @@ static mor_status stress_noise(mor_context *context, const view *v, double *valu
     return MOR_OK;
 }
 
-static const mor_probe_measure measures[] =
-    {{.type = {"run_out", "m", "m", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
-               "run-out distance of the deposit; along a path, from its first point"},
-      .run = run_out,
-      .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
-               "largest distance of a particle, of soil or rocks, that lies higher than origin; 0: there is none"},
-      .run = toe,
-      .cost = MOR_PROBE_COST_SUM},
-     {.type = {"front_speed", "m/s", "m/s", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
-               "speed of the front of the deposit; along a path, on the map"},
-      .run = front_speed,
-      .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"height", "m", "m", SOIL | REGION | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
-               "height of the deposit, against gravity"},
-      .run = height,
-      .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"repose_angle", "rad", "rad", SOIL | ALONG, 0, OF_SOIL, 100.0,
-               "slope of the free surface: of the least-squares line through the highest particles of each spacing of "
-               "distance beyond the top, from 20 to 80 % of the height"},
-      .run = repose_angle,
-      .cost = MOR_PROBE_COST_PROFILE},
-     {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS | REGION | PATH, 0, OF_SOIL, 100.0,
-               "share of the mass outside the deposit"},
-      .run = stray_share,
-      .cost = MOR_PROBE_COST_PROFILE},
-     {.type = {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},
-      .run = kinetic_energy,
-      .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"potential_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
-               "potential energy of soil and bodies, zero at origin"},
-      .run = potential_energy,
-      .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"elastic_energy", "J", "J/m", 0, 0, 0, 100.0,
-               "elastic energy stored in soil, bodies, their contacts and their springs"},
-      .run = elastic_energy,
-      .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"total_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
-               "kinetic, potential and elastic energy of soil and bodies"},
-      .run = total_energy,
-      .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0, "total energy / initial total energy, of soil and bodies"},
-      .run = energy_left,
-      .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
-               "initial total energy - total energy - energy that left the domain, of soil and bodies"},
-      .run = dissipated_energy,
-      .cost = MOR_PROBE_COST_ENERGIES},
-     {.type = {"mass", "kg", "kg/m", SOIL | REGION, 0, OF_SOIL, 100.0, "mass of the soil"},
-      .run = mass,
-      .cost = MOR_PROBE_COST_SUM},
-     {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
-               "mass of the soil that left the domain and was removed; added to mass, the initial mass of the soil"},
-      .run = outflow_mass},
-     {.type = {"outflow_momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, OF_SOIL, 100.0,
-               "momentum along direction of the soil that left, each particle when it left"},
-      .run = outflow_momentum},
-     {.type =
-          {"outflow_energy", "J", "J/m", ORIGIN, 0, OF_SOIL, 100.0,
-           "kinetic, potential (zero at origin) and elastic energy of the soil that left, each particle when it left"},
-      .run = outflow_energy},
-     {.type = {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0,
-               "momentum of soil and bodies along direction"},
-      .run = momentum,
-      .cost = MOR_PROBE_COST_SUM},
-     {.type = {"center_of_mass", "m", "m", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
-               "center of mass of the soil from origin along direction"},
-      .run = center_of_mass,
-      .cost = MOR_PROBE_COST_SUM},
-     {.type = {"largest_speed", "m/s", "m/s", SOIL | REGION | PERCENTILE, 0, OF_SOIL, 100.0,
-               "largest speed of a soil particle"},
-      .run = largest_speed,
-      .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,
-               "relative error of the vertical stress in a column at rest"},
-      .run = stress_error,
-      .cost = MOR_PROBE_COST_STRESS},
-     {.type = {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
-      .run = stress_ratio,
-      .cost = MOR_PROBE_COST_STRESS},
-     {.type = {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0,
-               "standard deviation of the vertical stress from its least-squares line over height"},
-      .run = stress_noise,
-      .cost = MOR_PROBE_COST_STRESS},
-     {.type = {"soil_kinetic_energy", "J", "J/m", SOIL | REGION, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
-      .run = soil_kinetic_energy,
-      .cost = MOR_PROBE_COST_KINETIC},
-     {.run = NULL}};
+static const mor_probe_measure measures[] = {
+    {.type = {"run_out", "m", "m", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
+              "run-out distance of the deposit; along a path, from its first point"},
+     .run = run_out,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
+              "largest distance of a particle, of soil or free bodies, that lies higher than origin; 0: there is none"},
+     .run = toe,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"front_speed", "m/s", "m/s", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
+              "speed of the front of the deposit; along a path, on the map"},
+     .run = front_speed,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"height", "m", "m", SOIL | REGION | PERCENTILE | ORIGIN, 0, OF_SOIL, 100.0,
+              "height of the deposit, against gravity"},
+     .run = height,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"repose_angle", "rad", "rad", SOIL | ALONG, 0, OF_SOIL, 100.0,
+              "slope of the free surface: of the least-squares line through the highest particles of each spacing of "
+              "distance beyond the top, from 20 to 80 % of the height"},
+     .run = repose_angle,
+     .cost = MOR_PROBE_COST_PROFILE},
+    {.type = {"stray_share", "1", "1", SOIL | ALONG | THICKNESS | REGION | PATH, 0, OF_SOIL, 100.0,
+              "share of the mass outside the deposit"},
+     .run = stray_share,
+     .cost = MOR_PROBE_COST_PROFILE},
+    {.type = {"kinetic_energy", "J", "J/m", 0, 0, 0, 100.0, "kinetic energy of soil and bodies"},
+     .run = kinetic_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"potential_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+              "potential energy of soil and bodies, zero at origin"},
+     .run = potential_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"elastic_energy", "J", "J/m", 0, 0, 0, 100.0,
+              "elastic energy stored in soil, bodies, their contacts and their springs"},
+     .run = elastic_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"total_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+              "kinetic, potential and elastic energy of soil and bodies"},
+     .run = total_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"energy_left", "1", "1", ORIGIN, 0, 0, 100.0, "total energy / initial total energy, of soil and bodies"},
+     .run = energy_left,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type =
+         {"dissipated_energy", "J", "J/m", ORIGIN, 0, 0, 100.0,
+          "initial total energy - total energy - energy of soil that left the domain and of bodies that were removed"},
+     .run = dissipated_energy,
+     .cost = MOR_PROBE_COST_ENERGIES},
+    {.type = {"mass", "kg", "kg/m", SOIL | REGION, 0, OF_SOIL, 100.0, "mass of the soil"},
+     .run = mass,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"outflow_mass", "kg", "kg/m", 0, 0, OF_SOIL, 100.0,
+              "mass of the soil that left the domain and was removed; added to mass, the initial mass of the soil"},
+     .run = outflow_mass},
+    {.type = {"outflow_momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, OF_SOIL, 100.0,
+              "momentum along direction of the soil that left, each particle when it left"},
+     .run = outflow_momentum},
+    {.type =
+         {"outflow_energy", "J", "J/m", ORIGIN, 0, OF_SOIL, 100.0,
+          "kinetic, potential (zero at origin) and elastic energy of the soil that left, each particle when it left"},
+     .run = outflow_energy},
+    {.type = {"momentum", "kg m/s", "kg/s", DIRECTION, DIRECTION, 0, 100.0,
+              "momentum of soil and bodies along direction"},
+     .run = momentum,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"center_of_mass", "m", "m", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+              "center of mass of the soil from origin along direction"},
+     .run = center_of_mass,
+     .cost = MOR_PROBE_COST_SUM},
+    {.type = {"largest_speed", "m/s", "m/s", SOIL | REGION | PERCENTILE, 0, OF_SOIL, 100.0,
+              "largest speed of a soil particle"},
+     .run = largest_speed,
+     .cost = MOR_PROBE_COST_PERCENTILE},
+    {.type = {"stress_error", "1", "1", 0, 0, OF_SOIL, 100.0,
+              "relative error of the vertical stress in a column at rest"},
+     .run = stress_error,
+     .cost = MOR_PROBE_COST_STRESS},
+    {.type = {"stress_ratio", "1", "1", 0, 0, OF_SOIL, 100.0, "mean lateral stress / vertical stress"},
+     .run = stress_ratio,
+     .cost = MOR_PROBE_COST_STRESS},
+    {.type = {"stress_noise", "Pa", "Pa", 0, 0, OF_SOIL, 100.0,
+              "standard deviation of the vertical stress from its least-squares line over height"},
+     .run = stress_noise,
+     .cost = MOR_PROBE_COST_STRESS},
+    {.type = {"soil_kinetic_energy", "J", "J/m", SOIL | REGION, 0, OF_SOIL, 100.0, "kinetic energy of the soil"},
+     .run = soil_kinetic_energy,
+     .cost = MOR_PROBE_COST_KINETIC},
+    {.run = NULL}};
 
 const mor_case_probe_type *mor_probe_type_at(int index)
 {

@@ -219,7 +219,8 @@ static mor_status bodies_damped_energy(mor_context *context, const view *v, doub
 
 static mor_status bodies_energy_balance(mor_context *context, const view *v, double *value)
 {
-    *value = mor_simulation_bodies_lost(&v->simulation->bodies) + mor_probe_total_energy(context, v);
+    *value = mor_simulation_bodies_lost(&v->simulation->bodies) + mor_probe_total_energy(context, v) +
+             mor_probe_energy_gone(v->simulation);
     const double initial = mor_simulation_initial_energy(v->simulation);
     *value = initial != 0.0 ? *value / initial : NAN; /* nothing to measure by */
     return MOR_OK;
@@ -364,7 +365,9 @@ const mor_probe_measure mor_probe_body_measures[] = {
               "energy lost to the viscous damping of elastic bodies since the start"},
      .run = bodies_damped_energy},
     {.type = {"bodies_energy_balance", "1", "1", 0, 0, OF_BODIES, 100.0,
-              "(total energy + energy lost to viscous damping and contact) / initial total energy"},
+              "(total energy + energy lost to viscous damping and contact + energy of what left or was removed) / "
+              "initial total "
+              "energy"},
      .run = bodies_energy_balance,
      .cost = MOR_PROBE_COST_ENERGIES},
     {.type = {"contact_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "energy stored in contacts of bodies"},

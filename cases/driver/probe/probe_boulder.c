@@ -18,7 +18,7 @@ static const mor_body *find_boulder(const view *v, int k)
 {
     const mor_simulation_body *it = &v->simulation->bodies.of[k];
     const mor_body *body = &it->group->bodies[it->index];
-    return body->is_held || it->group->boundary.patches[it->index].is_removed ? NULL : body;
+    return body->is_held || !mor_simulation_body_is_there(&v->simulation->bodies, k) ? NULL : body;
 }
 
 static double find_kinetic(const view *v, int k)
@@ -155,7 +155,7 @@ static mor_status passage_energy(mor_context *context, const view *v, double *va
     (void)context;
     for (int k = 0; k < v->simulation->the_case->n_bodies; ++k) {
         const double energy = v->memory[MOR_PROBE_PASSAGE_NUMBERS * k + MOR_PROBE_PASSAGE_ENERGY];
-        if (find_boulder(v, k) != NULL && isfinite(energy)) {
+        if (isfinite(energy)) { /* also of one that was removed since, as passages count it */
             energies[n++] = energy;
         }
     }

@@ -111,9 +111,7 @@ static mor_status external_work(mor_context *context, const view *v, double *val
     return MOR_OK;
 }
 
-/* Energy of the soil that has left the domain and of bodies that were removed, about the same origin as the
- * simulation's. */
-static double find_outflow(const mor_simulation *s)
+double mor_probe_energy_gone(const mor_simulation *s)
 {
     double origin[3];
     double energies[3];
@@ -141,7 +139,7 @@ static mor_status list_changes(mor_context *context, const view *v, double *chan
     changes[BOUNDARY] -= passed_on;
     changes[BODIES] = mor_simulation_bodies_lost(&s->bodies);
     changes[EXTERNAL] = -changes[EXTERNAL];
-    changes[OUTFLOW] = find_outflow(s);
+    changes[OUTFLOW] = mor_probe_energy_gone(s);
     return MOR_OK;
 }
 

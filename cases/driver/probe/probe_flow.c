@@ -97,23 +97,39 @@ static double find_side(const view *v, int64_t i, double period)
     return period > 0.0 ? ceil(distance / period) : (distance > 0.0 ? 1.0 : 0.0);
 }
 
-/* All particles are followed, and counted where they are found inside the region after a change of side. */
-static void remember_sides(const view *v, bool is_start, double *memory)
+/* Counts a particle where it is found inside the region after a change of side. */
+static void look_at_side(const view *v, int64_t i, double period, double *memory)
 {
     const mor_soil *soil = &v->simulation->soil;
     double *const *data = soil->set.data;
-    const double period = find_period(v);
-    memory[0] = is_start ? 0.0 : memory[0];
-    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        const double *place = data[MOR_FIELD_POSITION] + 3 * i;
-        double *side = &memory[1 + soil->set.id[i]];
-        const double now = find_side(v, i, period);
-        const bool is_counted = v->soil < 0 || soil->region_field < 0 || (int)data[soil->region_field][i] == v->soil;
-        if (!is_start && now != *side && is_counted && mor_probe_is_inside(v, place)) {
-            memory[0] += (now - *side) * data[MOR_FIELD_MASS][i];
-        }
-        *side = now;
+    double *side = &memory[1 + soil->set.id[i]];
+    const double now = find_side(v, i, period);
+    const bool is_counted = v->soil < 0 || soil->region_field < 0 || (int)data[soil->region_field][i] == v->soil;
+    if (now != *side && is_counted && mor_probe_is_inside(v, data[MOR_FIELD_POSITION] + 3 * i)) {
+        memory[0] += (now - *side) * data[MOR_FIELD_MASS][i];
     }
+    *side = now;
+}
+
+/* All particles are followed. */
+static void remember_sides(const view *v, bool is_start, double *memory)
+{
+    const mor_set *set = &v->simulation->soil.set;
+    const double period = find_period(v);
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        if (is_start) {
+            memory[1 + set->id[i]] = find_side(v, i, period);
+        } else {
+            look_at_side(v, i, period, memory);
+        }
+    }
+    memory[0] = is_start ? 0.0 : memory[0];
+}
+
+/* Also those that pass in the step in which they leave the domain. */
+static void remember_leaving(const view *v, int64_t particle, double *memory)
+{
+    look_at_side(v, particle, find_period(v), memory);
 }
 
 static mor_status mass_passed(mor_context *context, const view *v, double *value)
@@ -306,6 +322,7 @@ const mor_probe_measure mor_probe_flow_measures[] = {
      .run = mass_passed,
      .count = count_sides,
      .remember = remember_sides,
+     .leave = remember_leaving,
      .cost = MOR_PROBE_COST_SUM},
     {.type = {MOR_PROBE_DISPLACEMENT, "m", "m", REGION | PERCENTILE, 0, OF_SOIL | PAST, 50.0,
               "distance of soil particles from where they were at the start; a percentile of those that are now in the "

@@ -94,6 +94,11 @@ typedef struct mor_probe_measure {
     /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
      *  part of it that they gave, both in the unit of the type. */
     mor_probe_contact (*contact)(const mor_probe_view *view, uint64_t members, double *whole, double *part);
+    /** Updates what is kept, shape [count], mixed units, for a particle of soil right before it leaves; NULL: nothing. */
+    void (*leave)(const mor_probe_view *view, int64_t particle, double *memory);
+    /** Returns what is integrated in place of the value, for mean and impulse, in the unit of the type; NaN: there is
+     *  none yet; NULL: the value. For forces of a step that `run` filters. */
+    double (*integrand)(const mor_probe_view *view);
     size_t offset; /* of what `run` gives in what it reads, bytes; for measures that share a `run` */
     mor_probe_cost cost;
 } mor_probe_measure;
@@ -179,5 +184,9 @@ const double *mor_probe_energies(const mor_context *context, const mor_probe_vie
 
 /** Returns their sum, unit J (J/m in plane strain). */
 double mor_probe_total_energy(const mor_context *context, const mor_probe_view *view);
+
+/** Returns the energy of the soil that has left the domain and of the bodies that were removed in this run, about the
+ *  origin of mor_probe_energies, unit J (J/m in plane strain). */
+double mor_probe_energy_gone(const mor_simulation *s);
 
 #endif

@@ -71,17 +71,22 @@ static double find_angle(double descent, double distance)
     return distance > 0.0 ? atan(descent / distance) : NAN;
 }
 
-/* Height of the lower side of the front: the lowest particle within a spacing of it, less half a spacing, m. */
+/* Height of the lower side of the front: the lowest particle within 1.5 spacings of it, less half a spacing, m. What
+ * is beyond the front, as single grains are, is no part of it. */
 static double find_foot(const view *v, const double *level, double front)
 {
     double foot = INFINITY;
+    double nearest = INFINITY;
+    double of_nearest = NAN; /* where grains lie apart, none may be that near */
     for (int64_t i = 0; i < v->points.n_points; ++i) {
         const double *place = v->points.position + 3 * i;
-        if (mor_vector_dot(place, level) >= front - 1.5 * v->points.spacing) {
-            foot = fmin(foot, mor_vector_dot(place, v->frame.up));
-        }
+        const double distance = fabs(mor_vector_dot(place, level) - front);
+        const double height = mor_vector_dot(place, v->frame.up);
+        foot = distance <= 1.5 * v->points.spacing ? fmin(foot, height) : foot;
+        of_nearest = distance < nearest ? height : of_nearest;
+        nearest = fmin(nearest, distance);
     }
-    return foot - 0.5 * v->points.spacing;
+    return (isfinite(foot) ? foot : of_nearest) - 0.5 * v->points.spacing;
 }
 
 /* Front along direction, whatever the origin, so that start and end count from one place. */
@@ -122,8 +127,7 @@ static void add_bodies(const view *v, double gravity, const double *level, doubl
         double momentum[3];
         double angular[3];
         double along = mor_vector_dot(body->center, level);
-        if (body->is_held || it->group->boundary.patches[it->index].is_removed ||
-            !mor_probe_is_inside(v, body->center)) {
+        if (body->is_held || !mor_simulation_body_is_there(&s->bodies, k) || !mor_probe_is_inside(v, body->center)) {
             continue;
         }
         if (v->path != NULL) {

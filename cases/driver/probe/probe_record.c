@@ -97,11 +97,12 @@ void mor_probe_record_integrate(double *record, const mor_probe_window *window, 
     }
 }
 
-void mor_probe_record_add_step(double *record, const mor_probe_window *window, double begin, double end, double value)
+void mor_probe_record_add_step(double *record, const mor_probe_window *window, double begin, double end, double value,
+                               double integrand)
 {
     mor_probe_record_count(record, window, begin, end, isfinite(value));
     mor_probe_record_compare(record, window, begin, end, value);
-    mor_probe_record_integrate(record, window, begin, end, value);
+    mor_probe_record_integrate(record, window, begin, end, integrand);
 }
 
 double mor_probe_record_integral(const double *record)

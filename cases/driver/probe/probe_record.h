@@ -50,8 +50,10 @@ void mor_probe_record_add_instant(double *record, const mor_probe_window *window
  *  @param window [in]      the step counts with the part of it that lies inside
  *  @param begin  [in]      of the step, unit s
  *  @param end    [in]      of the step, unit s
- *  @param value  [in]      any unit */
-void mor_probe_record_add_step(double *record, const mor_probe_window *window, double begin, double end, double value);
+ *  @param value     [in]   any unit; its largest and smallest count
+ *  @param integrand [in]   same unit; of it are mean and integral, which is most often the value */
+void mor_probe_record_add_step(double *record, const mor_probe_window *window, double begin, double end, double value,
+                               double integrand);
 
 /** Does of the above what belongs to one measurement: counts it, and adds its time to the span.
  *  @param record    [in,out]  shape [MOR_PROBE_RECORD_NUMBERS]

@@ -80,6 +80,27 @@ static void watch_contact(mor_probe_track *track)
     }
 }
 
+/* ---- The soil within a step -------------------------------------------------------------------------------------- */
+
+static void watch_forces(mor_context *context, void *owner, const mor_soil_contact *contact, const double *records,
+                         int64_t n_particles)
+{
+    mor_probe_track *track = owner;
+    mor_gauges_watch_soil(context, &track->gauges, contact, records, n_particles);
+}
+
+static void watch_leaving(void *owner, int64_t particle)
+{
+    mor_probe_track *track = owner;
+    for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
+        mor_probe_view view;
+        mor_probe_view_set(track->simulation, k, &view);
+        if (view.measure->leave != NULL) {
+            view.measure->leave(&view, particle, track->memory[k]);
+        }
+    }
+}
+
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
 
 static void find_places(const mor_case *c, mor_probe_track *track, int k)
@@ -183,6 +204,7 @@ mor_status mor_probe_track_new(mor_context *context, mor_simulation *simulation)
             isnan(window[0]) ? whole_run : (mor_probe_window){window[0], window[1] < c->end ? window[1] : INFINITY};
     }
     watch_contact(track);
+    simulation->soil.watch = (mor_soil_watch){track, c->n_gauges > 0 ? watch_forces : NULL, watch_leaving};
     MOR_TRY(context, mor_gauges_init(context, simulation, &track->gauges));
     MOR_TRY(context, mor_probe_scan_new(context, simulation, &track->scan));
     MOR_TRY(context, reserve_memory(context, track));
@@ -243,7 +265,10 @@ static void keep(mor_probe_track *track, int k, double value)
     }
     const bool is_of_contact = (traits & MOR_CASE_PROBE_OF_CONTACT) != 0 && track->contact != NULL;
     if (!is_of_contact) {
-        mor_probe_record_add_step(record, window, before, now, value);
+        mor_probe_view view;
+        mor_probe_view_set(track->simulation, k, &view);
+        mor_probe_record_add_step(record, window, before, now, value,
+                                  view.measure->integrand != NULL ? view.measure->integrand(&view) : value);
         return;
     }
     mor_probe_record_count(record, window, before, now, isfinite(value));
@@ -269,7 +294,7 @@ static mor_status measure(mor_context *context, mor_probe_track *track, int k)
     return MOR_OK;
 }
 
-void mor_probe_track_resume(mor_probe_track *track)
+mor_status mor_probe_track_resume(mor_context *context, mor_probe_track *track)
 {
     const mor_simulation *s = track->simulation;
     for (int k = 0; k < s->the_case->n_probes; ++k) {
@@ -277,6 +302,7 @@ void mor_probe_track_resume(mor_probe_track *track)
         const bool is_new = isnan(record[MOR_PROBE_RECORD_BEGAN]);
         record[MOR_PROBE_RECORD_BEGAN] = is_new ? mor_schedule_time(&s->schedule) : record[MOR_PROBE_RECORD_BEGAN];
     }
+    return mor_gauges_resume(context, &track->gauges);
 }
 
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track)

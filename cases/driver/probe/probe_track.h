@@ -52,7 +52,7 @@ mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track);
 
 /** After a resume: probes that were not there before begin now.
  *  @param track [in,out]  as the checkpoint left it */
-void mor_probe_track_resume(mor_probe_track *track);
+mor_status mor_probe_track_resume(mor_context *context, mor_probe_track *track);
 
 /** Lists what the probes remember.
  *  @param list    [in,out]  borrows from the track

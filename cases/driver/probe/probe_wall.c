@@ -61,6 +61,10 @@ static mor_status wall_gap(mor_context *context, const view *v, double *value)
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
             job.wall = w;
             *value = INFINITY;
+            if (mor_simulation_is_removed(c->walls[w].removed_at, job.time)) {
+                *value = NAN;
+                return MOR_OK;
+            }
             mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SMALLEST, 1, find_gap, &job, partial, value);
             return MOR_OK;
         }
@@ -76,8 +80,9 @@ const mor_probe_measure mor_probe_wall_measures[] = {
     {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
               "impulse of the soil on a wall since the start along direction"},
      .run = wall_impulse},
-    {.type = {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
-              "smallest distance of a soil particle from the surface of a wall; negative: inside"},
+    {.type =
+         {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
+          "smallest distance of a soil particle from the surface of a wall; negative: inside; NaN once it is removed"},
      .run = wall_gap,
      .cost = MOR_PROBE_COST_DISTANCE},
     {.run = NULL}};

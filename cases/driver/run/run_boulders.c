@@ -4,7 +4,6 @@
 
 #include "cases/driver/probe/probe_boulder.h"
 #include "cases/driver/probe/probe_track.h"
-#include "cases/driver/scene/simulation_motion.h"
 #include "core/base/math.h"
 #include "core/base/memory.h"
 
@@ -27,6 +26,12 @@ static int find_probe(const mor_case *c, const char *type, int first)
 static const mor_body *find_body(const mor_simulation *s, int k)
 {
     return &s->bodies.of[k].group->bodies[s->bodies.of[k].index];
+}
+
+/* Bodies that move freely, but for those that were removed before this run began. */
+static bool is_listed(const mor_simulation *s, int k)
+{
+    return !find_body(s, k)->is_held && !find_body(s, k)->is_absent;
 }
 
 /* ---- Paths ------------------------------------------------------------------------------------------------------- */
@@ -67,7 +72,7 @@ mor_status mor_run_boulders_open(mor_context *context, mor_run_boulders *it, con
     }
     MOR_TRY(context, MOR_NEW(context, &it->bodies, c->n_bodies, "free bodies"));
     for (int k = 0; k < c->n_bodies; ++k) {
-        if (!find_body(simulation, k)->is_held) {
+        if (is_listed(simulation, k)) {
             it->bodies[it->n++] = k;
         }
     }
@@ -85,7 +90,7 @@ mor_status mor_run_boulders_add_row(mor_context *context, mor_run_boulders *it, 
     for (int k = 0; k < it->n; ++k) {
         double *place = it->row + 1 + 3 * (int64_t)k;
         mor_simulation_take_point_back(simulation->the_case, find_body(simulation, it->bodies[k])->center, place);
-        if (mor_simulation_is_removed(simulation->the_case->bodies[it->bodies[k]].removed_at, it->row[0])) {
+        if (!mor_simulation_body_is_there(&simulation->bodies, it->bodies[k])) {
             place[0] = place[1] = place[2] = NAN;
         }
     }
@@ -156,7 +161,7 @@ static void print_boulder(const mor_simulation *s, int number, const mor_case_pr
     const mor_body *body = find_body(s, number);
     const double nowhere[3] = {NAN, NAN, NAN};
     const double removed_at = c->bodies[number].removed_at;
-    const bool is_removed = mor_simulation_is_removed(removed_at, mor_schedule_time(&s->schedule));
+    const bool is_removed = !mor_simulation_body_is_there(&s->bodies, number);
     const double speed = is_removed ? NAN : mor_vector_length(body->velocity);
     fprintf(stream, "%s,%.9g,%.9g", c->bodies[number].name, find_diameter(body, c->dimension), body->mass);
     print_place(s, own + MOR_PROBE_TRAVEL_START, stream);
@@ -169,7 +174,7 @@ static void print_boulder(const mor_simulation *s, int number, const mor_case_pr
     print_number(stream, is_removed ? removed_at : NAN);
     for (int k = find_probe(c, MOR_PROBE_PASSAGES, 0); k >= 0; k = find_probe(c, MOR_PROBE_PASSAGES, k + 1)) {
         const double *passage = s->probes->memory[k] + (int64_t)MOR_PROBE_PASSAGE_NUMBERS * number;
-        fprintf(stream, ",%d", passage[MOR_PROBE_PASSAGE_NET] > 0.0);
+        fprintf(stream, ",%d", passage[MOR_PROBE_PASSAGE_SIDE] > 0.0);
         print_number(stream, passage[MOR_PROBE_PASSAGE_TIME]);
         print_number(stream, passage[MOR_PROBE_PASSAGE_ENERGY]);
     }
@@ -180,7 +185,7 @@ static void write_boulders(const mor_simulation *s, int probe, FILE *stream)
 {
     print_header(s->the_case, stream);
     for (int k = 0; k < s->the_case->n_bodies; ++k) {
-        if (!find_body(s, k)->is_held) {
+        if (is_listed(s, k)) {
             print_boulder(s, k, &s->the_case->probes[probe],
                           s->probes->memory[probe] + (int64_t)MOR_PROBE_TRAVEL_NUMBERS * k, stream);
         }

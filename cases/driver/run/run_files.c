@@ -4,6 +4,7 @@
 
 #include "cases/driver/case/schema/case_compare.h"
 #include "cases/driver/case/schema/case_schema.h"
+#include "cases/driver/map/map_track.h"
 #include "cases/driver/probe/probe.h"
 #include "core/base/hash.h"
 #include "core/base/memory.h"
@@ -343,7 +344,8 @@ mor_status mor_run_files_restore(mor_context *context, mor_run_files *files, boo
     const mor_status status = mor_checkpoint_read_latest(context, folder, &checkpoint);
     MOR_TRY(context, status == MOR_OK ? status : explain_refusal(context, files, status));
     MOR_TRY(context, set_clock(context, s));
-    mor_probe_track_resume(s->probes);
+    MOR_TRY(context, mor_probe_track_resume(context, s->probes));
+    MOR_TRY(context, mor_map_track_resume(context, s->maps));
     MOR_TRY(context, mor_simulation_resume(context, s));
     mor_context_log(context, MOR_LOG_INFO, "resumed at t = %.9g s, step %llu", mor_schedule_time(&s->schedule),
                     (unsigned long long)s->schedule.n_steps);

@@ -21,6 +21,16 @@ static void sort_trials(const mor_safety *it, int *order)
 
 /* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
+void mor_safety_print_cells(const double *values, int n, FILE *out)
+{
+    for (int k = 0; k < n; ++k) {
+        if (isfinite(values[k])) {
+            fprintf(out, "%.17g", values[k]);
+        }
+        fputc(',', out);
+    }
+}
+
 static void print_trials(const mor_safety *it, FILE *out)
 {
     const mor_safety_reference *r = &it->setup.reference;
@@ -32,11 +42,17 @@ static void print_trials(const mor_safety *it, FILE *out)
         const mor_safety_trial *trial = &it->trials[order[k]];
         const mor_safety_sample *last = &trial->samples[trial->n_samples - 1];
         const mor_safety_finding *found = &trial->finding;
-        fprintf(out, "%.17g,%s,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%" PRIu64 ",\"%s\"\n", trial->factor,
-                mor_safety_verdict_word(found->verdict), mor_safety_sign_word(found->by_speed),
-                mor_safety_sign_word(found->by_displacement), found->speed * mor_safety_reference_speed(r),
-                found->speed_ratio, last->displacement * r->height, last->displacement, found->growth * r->height,
-                last->force, trial->seconds, trial->n_steps, found->reason);
+        const double numbers[] = {found->speed * mor_safety_reference_speed(r),
+                                  found->speed_ratio,
+                                  last->displacement * r->height,
+                                  last->displacement,
+                                  found->growth * r->height,
+                                  last->force,
+                                  trial->seconds};
+        fprintf(out, "%.17g,%s,%s,%s,", trial->factor, mor_safety_verdict_word(found->verdict),
+                mor_safety_sign_word(found->by_speed), mor_safety_sign_word(found->by_displacement));
+        mor_safety_print_cells(numbers, sizeof numbers / sizeof *numbers, out);
+        fprintf(out, "%" PRIu64 ",\"%s\"\n", trial->n_steps, found->reason);
     }
 }
 
@@ -50,8 +66,10 @@ static void print_history(const mor_safety *it, FILE *out)
         const mor_safety_trial *trial = &it->trials[order[k]];
         for (int s = 0; s < trial->n_samples; ++s) {
             const mor_safety_sample *sample = &trial->samples[s];
-            fprintf(out, "%.17g,%.17g,%.17g,%.17g,%.17g\n", trial->factor, sample->time * mor_safety_reference_time(r),
-                    sample->speed * mor_safety_reference_speed(r), sample->displacement * r->height, sample->force);
+            const double numbers[] = {trial->factor, sample->time * mor_safety_reference_time(r),
+                                      sample->speed * mor_safety_reference_speed(r), sample->displacement * r->height};
+            mor_safety_print_cells(numbers, sizeof numbers / sizeof *numbers, out);
+            fprintf(out, isfinite(sample->force) ? "%.17g\n" : "\n", sample->force);
         }
     }
 }

@@ -21,6 +21,11 @@ typedef struct mor_safety_provenance {
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_safety_write_tables(mor_context *context, const mor_safety *it, const char *folder);
 
+/** Writes numbers with all their digits, each with a comma behind; one that is not finite leaves its cell empty.
+ *  @param values [in]      shape [n], any unit
+ *  @param out    [in,out]  one open stream */
+void mor_safety_print_cells(const double *values, int n, FILE *out);
+
 /** Writes fos.json.
  *  @param folder     [in]  zero-terminated; there already
  *  @param provenance [in]  one record

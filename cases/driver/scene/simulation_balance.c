@@ -96,7 +96,7 @@ static double find_body_net(const mor_simulation *s, int b)
     const double local = is_damped ? it->group->local_damping : 0.0;
     double force[3];
     double moment[3];
-    if (body->is_held) {
+    if (body->is_held || !mor_simulation_body_is_there(&s->bodies, b)) {
         return -1.0;
     }
     for (int a = 0; a < 3; ++a) {
@@ -165,7 +165,7 @@ void mor_simulation_find_motion(const mor_simulation *simulation, int n_threads,
         const mor_body *body = &it->group->bodies[it->index];
         const double speed =
             mor_vector_length(body->velocity) + find_gyration_radius(body) * mor_vector_length(body->angular_velocity);
-        if (!body->is_held) {
+        if (!body->is_held && mor_simulation_body_is_there(&simulation->bodies, b)) {
             momentum += body->mass * speed;
             mass += body->mass;
             motion->bodies = mor_larger(motion->bodies, speed);

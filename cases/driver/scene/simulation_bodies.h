@@ -96,7 +96,15 @@ double mor_simulation_bodies_damped(const mor_simulation_bodies *bodies);
 /** Energy that contact and viscous damping took from all bodies since the start, unit J (J/m). */
 double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies);
 
-/** Energies of all bodies, unit J (J/m).
+/** Whether a body of the case is there: not once it was removed, in this run or before it began.
+ *  @param body [in]  its number in the case */
+bool mor_simulation_body_is_there(const mor_simulation_bodies *bodies, int body);
+
+/** Mass of the bodies that are there, unit kg (kg/m).
+ *  @param with_removed [in]  also those that were removed in this run, so that it is the mass at its start */
+double mor_simulation_bodies_mass(const mor_simulation_bodies *bodies, bool with_removed);
+
+/** Energies of all bodies that are there, unit J (J/m).
  *  @param datum     [in]   shape [3]; potential energy counts from here, unit m
  *  @param kinetic   [out]  one number, unit J
  *  @param potential [out]  one number; of weight and springs to fixed points, unit J
@@ -108,7 +116,7 @@ void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const dou
  *  @param datum [in]  shape [3]; potential energy counts from here, unit m */
 double mor_simulation_bodies_removed(const mor_simulation_bodies *bodies, const double *datum);
 
-/** Linear momentum of all bodies, and angular momentum about a point.
+/** Linear momentum of all bodies that are there, and angular momentum about a point.
  *  @param point            [in]   shape [3], unit m
  *  @param momentum         [out]  shape [3], unit kg m/s (kg/s)
  *  @param angular_momentum [out]  shape [3], unit kg m2/s (kg m/s) */

@@ -49,6 +49,26 @@ double mor_simulation_bodies_lost(const mor_simulation_bodies *bodies)
     return lost;
 }
 
+bool mor_simulation_body_is_there(const mor_simulation_bodies *bodies, int body)
+{
+    const mor_simulation_body *it = &bodies->of[body];
+    return !it->group->boundary.patches[it->index].is_removed;
+}
+
+double mor_simulation_bodies_mass(const mor_simulation_bodies *bodies, bool with_removed)
+{
+    double mass = 0.0;
+    for (int g = 0; g < bodies->n_groups; ++g) {
+        const mor_body_group *group = bodies->groups[g];
+        for (int b = 0; b < group->n_bodies; ++b) {
+            const bool is_removed = group->boundary.patches[b].is_removed;
+            const bool counts = !is_removed || (with_removed && !group->bodies[b].is_absent);
+            mass += counts ? group->bodies[b].mass : 0.0;
+        }
+    }
+    return mass;
+}
+
 void mor_simulation_bodies_energy(const mor_simulation_bodies *bodies, const double *datum, double *kinetic,
                                   double *potential, double *elastic)
 {

@@ -190,6 +190,21 @@ mor_status mor_sweep_design_make(mor_context *context, const mor_sweep *sweep, m
     return list_members(context, design, &m);
 }
 
+mor_status mor_sweep_design_check_distinct(mor_context *context, const mor_sweep_design *design, const uint64_t *hashes)
+{
+    for (int m = 1; m < design->n_members; ++m) {
+        for (int other = 0; other < m; ++other) {
+            MOR_CHECK(context,
+                      hashes[m] == 0 || hashes[m] != hashes[other] || design->groups[m] != design->groups[other],
+                      MOR_ERROR_CONFIG,
+                      "%s: found members %d and %d with one and the same case: one run would count as two in the "
+                      "statistics; allowed: cases that differ; give each value once, or let a seed vary",
+                      design->sweep->path, other + 1, m + 1);
+        }
+    }
+    return MOR_OK;
+}
+
 void mor_sweep_design_clear(mor_context *context, mor_sweep_design *design)
 {
     MOR_FREE(context, &design->choices);

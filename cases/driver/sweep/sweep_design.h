@@ -41,6 +41,12 @@ typedef struct mor_sweep_settings {
  *  MOR_ERROR_MEMORY. */
 mor_status mor_sweep_design_make(mor_context *context, const mor_sweep *sweep, mor_sweep_design *design);
 
+/** Refuses members of a group that are one and the same case: statistics would count one run as two.
+ *  @param hashes [in]  shape [n_members]; of their cases, 1; 0: it is not known
+ *  Returns: MOR_OK; MOR_ERROR_CONFIG with the file and the first two members. */
+mor_status mor_sweep_design_check_distinct(mor_context *context, const mor_sweep_design *design,
+                                           const uint64_t *hashes);
+
 /** Frees a design; accepts a zeroed one. */
 void mor_sweep_design_clear(mor_context *context, mor_sweep_design *design);
 

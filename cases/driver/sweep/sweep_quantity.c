@@ -111,10 +111,16 @@ mor_status mor_sweep_quantity_members(const mor_case_reader *reader, const mor_c
     return MOR_OK;
 }
 
+const char *mor_sweep_quantity_suffix(double value)
+{
+    return fabs(value) > 2147483647.0 ? "L" : "";
+}
+
 void mor_sweep_quantity_format(const mor_units *units, double value, const char *unit, char *text, size_t text_bytes)
 {
-    if (value == nearbyint(value) && fabs(value) < 1e15) {
-        snprintf(text, text_bytes, "%.0f", value); /* whole numbers stay whole numbers, which some keys need */
+    const double exact = 9007199254740992.0;                 /* 2^53: up to here doubles hold all whole numbers */
+    if (value == nearbyint(value) && fabs(value) <= exact) { /* they stay whole numbers, which some keys need */
+        snprintf(text, text_bytes, "%.0f%s", value, unit[0] == '\0' ? mor_sweep_quantity_suffix(value) : "");
     } else {
         mor_units_format(units, value, text, text_bytes);
     }

@@ -38,6 +38,9 @@ mor_status mor_sweep_quantity_convert(mor_context *context, const mor_units *uni
 mor_status mor_sweep_quantity_members(const mor_case_reader *reader, const mor_case_node *group,
                                       const char *const *names, int n, char *unit, double *values);
 
+/** What follows a whole number in a case: "L" where it needs more than 32 bits, else "". */
+const char *mor_sweep_quantity_suffix(double value);
+
 /** Writes a number with the unit it is in, so that a case reads the same number.
  *  @param value      [in]   finite, in unit
  *  @param unit       [in]   zero-terminated; "": none

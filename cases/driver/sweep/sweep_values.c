@@ -84,7 +84,8 @@ static bool write_value(const mor_case_reader *reader, const mor_case_node *node
     int n = 0;
     switch (node->kind) {
     case MOR_CASE_NODE_INTEGER:
-        n = snprintf(text, text_bytes, "%" PRId64, node->integer);
+        n = snprintf(text, text_bytes, "%" PRId64 "%s", node->integer,
+                     mor_sweep_quantity_suffix((double)node->integer));
         break;
     case MOR_CASE_NODE_REAL:
         n = text_bytes < 32 || !isfinite(node->real) ? -1 : 0;
@@ -223,9 +224,11 @@ static mor_status read_range(const mor_case_reader *reader, const mor_case_node 
     MOR_TRY(reader->context, make_choices(reader, node, n < 1e6 ? (int)n : 1000000, variable));
     for (int k = 0; k < variable->n_choices; ++k) {
         mor_sweep_choice *choice = &variable->choices[k];
-        /* Twelve digits: 0.1 + 2 * 0.1 is written as 0.3. */
-        snprintf(text, sizeof text, "%.12g", it[0] + k * it[2]);
-        (void)mor_units_number(reader->units, text, &choice->value);
+        choice->value = it[0] + k * it[2];
+        if (choice->value != nearbyint(choice->value)) { /* twelve digits: 0.1 + 2 * 0.1 is written as 0.3 */
+            snprintf(text, sizeof text, "%.12g", choice->value);
+            (void)mor_units_number(reader->units, text, &choice->value);
+        }
         mor_sweep_quantity_format(reader->units, choice->value, variable->unit, text, sizeof text);
         MOR_TRY(reader->context, set_choice(reader, variable->key, text, choice));
     }

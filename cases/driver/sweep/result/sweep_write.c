@@ -117,6 +117,12 @@ static void write_value(double value, FILE *out)
     }
 }
 
+/* Choices with numbers have labels, too, which alone tell those apart that share a number. */
+static bool has_labels(const mor_sweep_variable *it)
+{
+    return it->is_number && it->n_choices > 0 && it->key[0] == '\0';
+}
+
 /* Heads of the columns of variables. */
 static void write_variable_heads(const mor_sweep *sweep, bool has_all, FILE *out)
 {
@@ -125,25 +131,31 @@ static void write_variable_heads(const mor_sweep *sweep, bool has_all, FILE *out
         if (has_all || mor_sweep_design_is_factor(sweep, v)) {
             fprintf(out, "%s%s%s%s,", it->name, it->unit[0] != '\0' ? " [" : "", it->unit,
                     it->unit[0] != '\0' ? "]" : "");
+            if (has_labels(it)) {
+                fprintf(out, "%s_label,", it->name);
+            }
         }
     }
 }
 
-/* What the variables are in a member. Choices with a label of their own are told by it. */
+/* What the variables are in a member: a number, a label, or both. */
 static void write_variables(const mor_sweep_design *design, int member, bool has_all, FILE *out)
 {
     const mor_sweep *sweep = design->sweep;
     for (int v = 0; v < sweep->n_variables; ++v) {
         const mor_sweep_variable *it = &sweep->variables[v];
         const double value = mor_sweep_design_value(design, member, v);
+        const bool has_value = it->is_number && isfinite(value);
         char label[MOR_SWEEP_LABEL_BYTES];
         if (!has_all && !mor_sweep_design_is_factor(sweep, v)) {
             continue;
         }
-        if (it->is_number && isfinite(value)) {
+        mor_sweep_design_label(design, member, v, label);
+        if (has_value) {
             fprintf(out, "%.17g", value);
-        } else {
-            mor_sweep_design_label(design, member, v, label);
+        }
+        fputs(has_labels(it) ? "," : "", out);
+        if (has_labels(it) || !has_value) {
             write_text(label, out);
         }
         fputc(',', out);

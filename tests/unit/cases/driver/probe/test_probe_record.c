@@ -21,7 +21,7 @@ static void empty_record_knows_nothing(void **state)
     mor_probe_record_clear(record);
     mor_probe_record_add_instant(record, &whole, 0.0, NAN);
     mor_probe_record_add_instant(record, &whole, 1.0, INFINITY);
-    mor_probe_record_add_step(record, &whole, 1.0, 2.0, NAN);
+    mor_probe_record_add_step(record, &whole, 1.0, 2.0, NAN, NAN);
     assert_true(isnan(record[MOR_PROBE_RECORD_MAXIMUM]) && isnan(record[MOR_PROBE_RECORD_MINIMUM]));
     assert_true(isnan(record[MOR_PROBE_RECORD_TIME_OF_MAXIMUM]));
     assert_true(isnan(mor_probe_record_mean(record)) && isnan(mor_probe_record_integral(record)));
@@ -79,7 +79,7 @@ static void steps_count_with_the_part_inside_the_window(void **state)
     (void)state;
     mor_probe_record_clear(record);
     for (int k = 0; k < 5; ++k) {
-        mor_probe_record_add_step(record, &window, k, k + 1.0, 10.0 * k);
+        mor_probe_record_add_step(record, &window, k, k + 1.0, 10.0 * k, 10.0 * k);
     }
     assert_true(mor_probe_record_integral(record) == 10.0 * 0.5 + 20.0 + 30.0 * 0.25);
     assert_true(record[MOR_PROBE_RECORD_MAXIMUM] == 30.0 && record[MOR_PROBE_RECORD_MINIMUM] == 10.0);

@@ -109,6 +109,16 @@ static void ranges_end_at_their_end(void **state)
 }
 
 /* A choice takes other variables away, sets several keys, and may have a case of its own. */
+/* Numbers of more than 32 bits carry the L that a case needs, and all their digits. */
+static void large_whole_numbers_keep_their_digits(void **state)
+{
+    bench *b = *state;
+    make(b, "case = 'c.cfg'; vary = ( { name = 'a'; key = 'x'; values = ( 2147483647, 3000000000L ); },"
+            "  { name = 'b'; key = 'y'; from = 20261128000001L; to = 20261128000003L; step = 2; } );");
+    expect_settings(b, 0, "x=2147483647 | y=20261128000001L");
+    expect_settings(b, 3, "x=3000000000L | y=20261128000003L");
+}
+
 static void choices_leave_out_what_has_no_meaning_with_them(void **state)
 {
     bench *b = *state;
@@ -404,6 +414,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_BENCH(members_are_all_combinations),
+        WITH_BENCH(large_whole_numbers_keep_their_digits),
         WITH_BENCH(ranges_end_at_their_end),
         WITH_BENCH(choices_leave_out_what_has_no_meaning_with_them),
         WITH_BENCH(combinations_share_their_latin_hypercube),
