@@ -94,7 +94,7 @@ typedef struct mor_probe_measure {
     /** Of contact, NULL for others: writes the value after a sub-step of the steppers with the bits of members, and the
      *  part of it that they gave, both in the unit of the type. */
     mor_probe_contact (*contact)(const mor_probe_view *view, uint64_t members, double *whole, double *part);
-    /** Updates what is kept, shape [count], mixed units, for a particle of soil right before it leaves; NULL: nothing. */
+    /** Updates what is kept, shape [count], mixed units, for a particle of soil that leaves now; NULL: nothing. */
     void (*leave)(const mor_probe_view *view, int64_t particle, double *memory);
     /** Returns what is integrated in place of the value, for mean and impulse, in the unit of the type; NaN: there is
      *  none yet; NULL: the value. For forces of a step that `run` filters. */
