@@ -85,6 +85,29 @@ static void the_impulse_on_a_gate_is_that_of_its_gauge_and_no_gap_is_left_of_it(
     assert_true(read_statistics(folder, "run", "gap").minimum > -0.01);
 }
 
+/* A box that collapses to both sides: from either end of its level top lines to the fronts descends alike. */
+static void the_angle_of_reach_is_that_of_the_mirror_image(void **state)
+{
+    run_folder *folder = *state;
+    session_run_text(folder,
+                     "dimension = 2; spacing = '0.1 m'; gravity = (0, -9.81); end = '0.6 s';"
+                     "domain = { min = (-5, -1); max = (5, 4); };"
+                     "soil = ( { name = 'sand'; shape = { type = 'box'; min = (-1, 0); max = (1, 2); };" //
+                     SAND("") "walls = ( " FLOOR " );"
+                              "probes = ( { name = 'right'; type = 'angle_of_reach'; direction = (1, 0); },"
+                              "  { name = 'left'; type = 'angle_of_reach'; direction = (-1, 0); },"
+                              "  { name = 'front'; type = 'run_out'; direction = (1, 0); } );"
+                              "output = { snapshots = 2; pictures = false; };",
+                     "run");
+    const double front = finished_run_read_value(folder, "run", "front", -1);
+    const double right = finished_run_read_value(folder, "run", "right", -1);
+    assert_true(front > 1.2);
+    /* From the rear end of the top, half a spacing inside of it; the foot of the front is thinner than 0.3 m. */
+    const double along = front + 0.95;
+    assert_near(tan(right), 1.85 / along, 0.2 / along);
+    assert_near(finished_run_read_value(folder, "run", "left", -1), right, 1e-3);
+}
+
 /* Four grains of a thousand lie far beyond and below the front: a straight line from the top to the front is at
  * atan(2 / 10), to the waves of 20 ms. */
 static void grains_beyond_the_front_do_not_steepen_the_angle_of_reach(void **state)
@@ -111,6 +134,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_passes_an_open_face_is_what_left, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_impulse_on_a_gate_is_that_of_its_gauge_and_no_gap_is_left_of_it,
                                         run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(the_angle_of_reach_is_that_of_the_mirror_image, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(grains_beyond_the_front_do_not_steepen_the_angle_of_reach, run_folder_setup,
                                         run_folder_teardown),
     };

@@ -44,7 +44,8 @@ static void remember(const view *v, bool is_start, double *memory)
 {
     const mor_measure_points *points = &v->points;
     double level[3];
-    int64_t top = 0;
+    double highest = -INFINITY;
+    double rearmost = INFINITY;
     find_level(v, level);
     if (!is_start) {
         return;
@@ -55,13 +56,16 @@ static void remember(const view *v, bool is_start, double *memory)
     if (points->n_points == 0) {
         return;
     }
-    for (int64_t i = 1; i < points->n_points; ++i) {
-        const bool is_higher = mor_vector_dot(points->position + 3 * i, v->frame.up) >
-                               mor_vector_dot(points->position + 3 * top, v->frame.up);
-        top = is_higher ? i : top;
+    for (int64_t i = 0; i < points->n_points; ++i) {
+        highest = fmax(highest, mor_vector_dot(points->position + 3 * i, v->frame.up));
     }
-    memory[TOP_ALONG] = mor_vector_dot(points->position + 3 * top, level);
-    memory[TOP_HEIGHT] = mor_vector_dot(points->position + 3 * top, v->frame.up) + 0.5 * points->spacing;
+    for (int64_t i = 0; i < points->n_points; ++i) { /* of a level top the rear end */
+        const double *place = points->position + 3 * i;
+        const bool is_top = mor_vector_dot(place, v->frame.up) >= highest - 0.5 * points->spacing;
+        rearmost = is_top ? fmin(rearmost, mor_vector_dot(place, level)) : rearmost;
+    }
+    memory[TOP_ALONG] = rearmost;
+    memory[TOP_HEIGHT] = highest + 0.5 * points->spacing;
     find_center(v, &memory[CENTER_ALONG], &memory[CENTER_HEIGHT]);
 }
 
@@ -172,8 +176,10 @@ static mor_status energy_line(mor_context *context, const view *v, double *value
 
 const mor_probe_measure mor_probe_reach_measures[] = {
     {.type = {"angle_of_reach", "rad", "rad", SOIL | REGION | PERCENTILE | DIRECTION | PATH, 0, OF_SOIL | PAST, 99.5,
-              "slope of the line from the highest point of the soil at the start to the front of the deposit, along "
-              "direction or path; NaN where it has come nowhere, and with a region that held no soil at the start"},
+              "slope of the line from the highest point of the soil at the start, of a level top its rear end, to the "
+              "front "
+              "of the deposit, along direction or path; NaN where it has come nowhere, and with a region that held no "
+              "soil at the start"},
      .run = angle_of_reach,
      .count = count,
      .remember = remember,

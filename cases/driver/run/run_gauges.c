@@ -264,7 +264,16 @@ mor_status mor_run_gauges_warn_of_growth(mor_context *context, const mor_gauges 
         double until = NAN;
         const double early = find_early_peak(&data, k, &until);
         const double risen = peaks[MOR_GAUGE_PEAK_NORMAL] - early;
-        if (risen > growth * peaks[MOR_GAUGE_PEAK_NORMAL]) {
+        mor_gauge_reading impulse;
+        mor_gauge_read(&gauges->of[k], gauges->of[k].numbers + MOR_GAUGE_SUM, &impulse);
+        if (impulse.normal < 0.0) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            MOR_RUN_WARNING_AT_END
+                            "the force on gauge '%s' acts against its direction, with an impulse of %.5g %s: its peak "
+                            "is the smallest load, not the largest; reverse 'direction' of the gauge",
+                            gauges->of[k].asked->name, impulse.normal,
+                            gauges->simulation->the_case->dimension == 2 ? "N s/m" : "N s");
+        } else if (risen > growth * peaks[MOR_GAUGE_PEAK_NORMAL]) {
             mor_context_log(context, MOR_LOG_WARNING,
                             MOR_RUN_WARNING_AT_END
                             "the load on gauge '%s' was still growing: its peak of %.5g %s at %.4g s was %.5g until "

@@ -182,6 +182,20 @@ static mor_status find_body(mor_context *context, mor_safety *it)
 }
 
 /* What the search found may hang on one of its limits, or on too few particles. */
+/* What stays undecided may lie anywhere in the band. */
+static void warn_of_width(mor_context *context, const mor_safety *it, double tolerance)
+{
+    const double wide = 3.0;
+    const double width = it->band.fails - it->band.stable;
+    if (width > wide * tolerance && it->band.n_undecided > 0) { /* NaN: an end is missing */
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "the band from %.4g to %.4g is %.2g times as wide as the tolerance asked for, %g: %d factors in "
+            "it stayed undecided, see the reasons in trials.csv; take its lower end, or a finer spacing",
+            it->band.stable, it->band.fails, width / tolerance, tolerance, it->band.n_undecided);
+    }
+}
+
 static void warn_of_result(mor_context *context, const mor_safety *it)
 {
     const double near_limit = 0.8;
@@ -228,6 +242,7 @@ mor_status mor_safety_find(mor_context *context, const mor_safety_request *reque
     }
     if (it->n_trials > 0) {
         warn_of_result(context, it);
+        warn_of_width(context, it, request->bracket.tolerance);
     }
     return MOR_OK;
 }

@@ -38,25 +38,25 @@ static mor_status find_parts(mor_context *context, const mor_simulation *simulat
     return MOR_OK;
 }
 
-/* The longest row of neighboring columns whose highest particle is part of the body; places sorted by column. */
+/* The longest row of neighboring columns that begins and ends with one whose highest particle is part of the body, and
+ * in between has none without such a particle: cells of the surface that moved less do not end it. Places are sorted by
+ * column, from above. */
 static bool find_row(const mor_safety_body *body, const mor_set *set, const mor_soil_place *places, int64_t *first,
                      int64_t *last)
 {
     int64_t length = 0;
-    int64_t present = 0;
-    int64_t previous = -1; /* the last highest particle of the present row */
-    int64_t begin = -1;
-    for (int64_t k = 0; k < set->n_particles; ++k) {
-        if (k > 0 && places[k].column == places[k - 1].column) {
-            continue;
-        }
+    int64_t begin = -1; /* the highest particle at its begin; -1: there is no row */
+    int64_t end = 0;
+    for (int64_t k = 0; k < set->n_particles; k = end) {
         const bool is_part = body->is_part[set->id[places[k].particle]];
-        const bool goes_on = present > 0 && is_part && places[k].column == places[previous].column + 1;
-        begin = goes_on ? begin : k;
-        present = !is_part ? 0 : goes_on ? present + 1 : 1;
-        previous = k;
-        if (present > length) {
-            length = present;
+        const bool is_beside = k == 0 || places[k].column == places[k - 1].column + 1;
+        bool holds_part = false;
+        for (end = k; end < set->n_particles && places[end].column == places[k].column; ++end) {
+            holds_part = holds_part || body->is_part[set->id[places[end].particle]];
+        }
+        begin = begin >= 0 && is_beside && holds_part ? begin : is_part ? k : -1;
+        if (is_part && places[k].column - places[begin].column + 1 > length) {
+            length = places[k].column - places[begin].column + 1;
             *first = begin;
             *last = k;
         }
