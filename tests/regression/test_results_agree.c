@@ -85,7 +85,7 @@ static void the_impulse_on_a_gate_is_that_of_its_gauge_and_no_gap_is_left_of_it(
     assert_true(read_statistics(folder, "run", "gap").minimum > -0.01);
 }
 
-/* A box that collapses to both sides: from either end of its level top lines to the fronts descends alike. */
+/* A box that collapses to both sides: from either end of its top the lines to the fronts descend alike. */
 static void the_angle_of_reach_is_that_of_the_mirror_image(void **state)
 {
     run_folder *folder = *state;

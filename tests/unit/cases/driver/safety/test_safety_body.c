@@ -134,6 +134,33 @@ static void a_grain_beside_the_body_is_no_part_of_it(void **state)
     scene_free(it);
 }
 
+/* The left half of a level layer has moved, but for two cells of its surface: its ends are those of that half. */
+static void cells_of_the_surface_that_moved_less_do_not_end_the_body(void **state)
+{
+    mor_safety_reference reference;
+    mor_safety_body body;
+    (void)state;
+    const char *const settings[] = {"domain={min=('-1 m','-0.5 m');max=('4 m','2 m');}", "soil[0].shape.max=(3, 0.5)",
+                                    "gravity=(0, -9.81)", NULL};
+    const scene_request request = {.text = text, .settings = (const char *const *[]){settings}, .n_lists = 1};
+    scene *it = scene_new(&request);
+    mor_set *set = &it->simulation.soil.set;
+    scene_require(it, mor_safety_reference_init(&it->context, &it->simulation, 0.5, &reference));
+    for (int64_t i = 0; i < set->n_particles; ++i) {
+        double *place = set->data[MOR_FIELD_POSITION] + 3 * i;
+        const bool is_cell = place[1] > 0.45 && place[0] > 0.4 && place[0] < 0.5;
+        place[1] += place[0] < 1.5 ? is_cell ? 0.04 : 0.1 : 0.0;
+    }
+    scene_require(it, mor_safety_body_find(&it->context, &it->simulation, &reference, 0.1, &body));
+    assert_true(body.has_ends);
+    /* Both ends are level, so that either may be called the upper one; centers of the outer columns. */
+    scene_expect_near("the left end", fmin(body.top[0], body.toe[0]), 0.025, 1.0e-6);
+    scene_expect_near("the right end", fmax(body.top[0], body.toe[0]), 1.475, 1.0e-6);
+    mor_safety_body_clear(&it->context, &body);
+    mor_safety_reference_clear(&it->context, &reference);
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -142,6 +169,7 @@ int main(void)
         cmocka_unit_test(a_gravity_along_the_axis_asks_for_a_height),
         cmocka_unit_test(a_body_without_ends_has_none),
         cmocka_unit_test(a_grain_beside_the_body_is_no_part_of_it),
+        cmocka_unit_test(cells_of_the_surface_that_moved_less_do_not_end_the_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
