@@ -55,7 +55,7 @@ typedef struct mor_soil_watch {
      *  looks. */
     void (*run)(mor_context *context, void *owner, const mor_soil_contact *contact, const double *records,
                 int64_t n_particles);
-    void (*leave)(void *owner, int64_t particle); /* likewise at a particle right before it leaves the domain */
+    void (*leave)(void *owner, int64_t particle); /* one by one, at the end of its last step */
 } mor_soil_watch;
 
 /** One soil. Owner: the run. */

@@ -24,7 +24,9 @@
           "  { name = 'unbalanced'; type = 'unbalanced_force'; }, { name = 'balance'; type = 'energy_balance'; }" more \
           " );"                                                                                                        \
           "output = { snapshots = 2; pictures = false; };"
-#define TRAVEL ", { type = 'boulder_travel'; }"
+#define TRAVEL                                                                                                         \
+    ", { type = 'boulder_travel'; },"                                                                                  \
+    "  { name = 'height'; type = 'body_position'; body = 'block'; direction = (0, 1); }"
 #define BLOCK(more)                                                                                                    \
     "bodies = ( { name = 'block'; shape = { type = 'box'; min = (-0.2, -0.2); max = (0.2, 0.2); };"                    \
     "  position = (4, 1); material = { model = 'rigid'; density = 2500; }; " more " } );"
@@ -39,6 +41,8 @@ static void a_removed_body_counts_in_no_result(void **state)
     const double weight = finished_run_read_value(folder, "with", "potential", 0) -
                           finished_run_read_value(folder, "alone", "potential", 0);
     assert_near(weight, 400.0 * 9.81 * 11.0, 1e-6 * weight);
+    assert_near(finished_run_read_value(folder, "with", "height", 0), 1.0, 1e-9);
+    assert_true(isnan(finished_run_read_value(folder, "with", "height", -1)));
     for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
         const double alone = finished_run_read_value(folder, "alone", names[k], -1);
         /* Steps end where it is removed and so are others: a thousandth, of net forces, which change from step to step,

@@ -166,7 +166,6 @@ static void domain_may_grow_around_bodies(void **state)
     RUN_QUIETLY(folder, "run", "--resume", "--set", "domain.max=(4, 3, 3)");
 }
 
-/* Earlier rows have empty cells in the new column, and are otherwise as they were. */
 /* The domain ends 0.2 of a cell, and 0.6 of one, later: the number of cells is the same, their places are not. */
 static void maps_are_not_moved_by_a_larger_domain(void **state)
 {
@@ -198,6 +197,7 @@ static void maps_are_not_moved_by_a_larger_domain(void **state)
     }
 }
 
+/* Earlier rows have empty cells in the new column, and are otherwise as they were. */
 static void probe_may_be_added(void **state)
 {
     run_folder *folder = *state;

@@ -285,7 +285,7 @@ void mor_element_record_complete(const mor_element_path *path, double start_void
         if (path != NULL && mor_element_path_keeps_volume(path) && isnan(row[MOR_ELEMENT_EPS_V])) {
             row[MOR_ELEMENT_EPS_V] = 0.0;
         }
-        if (isnan(row[MOR_ELEMENT_EPS_Q])) {
+        if (isnan(row[MOR_ELEMENT_EPS_Q]) && !(path != NULL && path->has_b)) {
             row[MOR_ELEMENT_EPS_Q] = row[MOR_ELEMENT_AXIAL_STRAIN] - row[MOR_ELEMENT_EPS_V] / 3.0;
         }
         if (isnan(row[MOR_ELEMENT_VOID_RATIO])) {

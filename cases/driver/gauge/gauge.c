@@ -413,21 +413,28 @@ mor_status mor_gauges_list_state(mor_context *context, mor_gauges *gauges, mor_s
     return MOR_OK;
 }
 
+/* The same but for rounding, of a domain in another place. */
+static bool is_same_axis(const mor_gauge_map *map, int axis)
+{
+    const double rounding = 1.0e-6 * map->cell[axis];
+    return fabs(map->frame[axis] - map->start[axis]) <= rounding &&
+           fabs(map->frame[2 + axis] - map->cell[axis]) <= rounding;
+}
+
 mor_status mor_gauges_resume(mor_context *context, const mor_gauges *gauges)
 {
     for (int k = 0; k < gauges->n; ++k) {
         const mor_gauge_map *map = &gauges->of[k].map;
         const mor_case_gauge *asked = gauges->of[k].asked;
-        if (mor_gauge_map_cells(map) > 0 && (memcmp(map->frame, map->start, sizeof map->start) != 0 ||
-                                             memcmp(map->frame + 2, map->cell, sizeof map->cell) != 0)) {
-            return MOR_FAIL(context, MOR_ERROR_CONFIG,
-                            "%s:%d: found a map of pressure of gauge '%s' that begins %.9g m up with cells of %.9g m, "
-                            "but %.9g m with %.9g m in the run that is resumed: a map of a structure without end goes "
-                            "as far as the domain, which was changed; allowed: the domain of that run; give it again, "
-                            "or a region to the gauge from the start",
-                            asked->place.file, asked->place.line, asked->name, map->start[1], map->cell[1],
-                            map->frame[1], map->frame[3]);
-        }
+        const bool has_map = mor_gauge_map_cells(map) > 0;
+        const int axis = has_map && !is_same_axis(map, 0) ? 0 : 1;
+        MOR_CHECK(context, !has_map || is_same_axis(map, axis), MOR_ERROR_CONFIG,
+                  "%s:%d: found a map of pressure of gauge '%s' that begins %.9g m %s from its origin with cells of "
+                  "%.9g m, but %.9g m with %.9g m in the run that is resumed: a map of a structure without end goes as "
+                  "far as the domain, which was changed; allowed: the domain of that run; give it again, or a region "
+                  "to the gauge from the start",
+                  asked->place.file, asked->place.line, asked->name, map->start[axis], axis == 0 ? "across" : "up",
+                  map->cell[axis], map->frame[axis], map->frame[2 + axis]);
     }
     return MOR_OK;
 }

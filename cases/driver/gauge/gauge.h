@@ -139,6 +139,7 @@ mor_status mor_gauges_list_state(mor_context *context, mor_gauges *gauges, mor_s
 mor_status mor_gauges_resume(mor_context *context, const mor_gauges *gauges);
 
 /** Takes up the forces of the soil on a boundary, as mor_soil_watch shows them.
+ *  @param contact [in]  the boundary, with the forces of this step
  *  @param records [in]  shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
 void mor_gauges_watch_soil(mor_context *context, mor_gauges *gauges, const struct mor_soil_contact *contact,
                            const double *records, int64_t n_particles);

@@ -126,10 +126,13 @@ mor_status mor_map_track_resume(mor_context *context, const mor_map_track *track
     }
     const mor_map_grid *grid = &track->grid;
     const mor_case_maps *maps = &track->simulation->the_case->maps;
-    MOR_CHECK(context,
-              memcmp(track->frame, grid->origin, sizeof grid->origin) == 0 &&
-                  memcmp(track->frame + 2, grid->cell, sizeof grid->cell) == 0,
-              MOR_ERROR_CONFIG,
+    bool is_same = true; /* but for rounding */
+    for (int a = 0; a < 2; ++a) {
+        const double rounding = 1.0e-6 * grid->cell[a];
+        is_same = is_same && fabs(track->frame[a] - grid->origin[a]) <= rounding &&
+                  fabs(track->frame[2 + a] - grid->cell[a]) <= rounding;
+    }
+    MOR_CHECK(context, is_same, MOR_ERROR_CONFIG,
               "%s:%d: found maps that begin at (%.9g, %.9g) m, but at (%.9g, %.9g) m in the run that is resumed: they "
               "go as far as the domain, which was changed; allowed: the domain of that run; give it again, or start a "
               "run anew",

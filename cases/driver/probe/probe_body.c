@@ -34,6 +34,15 @@ static mor_status along(mor_context *context, const view *v, const double *(*pic
     return MOR_OK;
 }
 
+/* What a body that was removed has no more is NaN. */
+static mor_status present(const view *v, mor_status status, double *value)
+{
+    if (status == MOR_OK && v->body->group->boundary.patches[v->body->index].is_removed) {
+        *value = NAN;
+    }
+    return status;
+}
+
 static const double *pick_center(const mor_simulation_body *it)
 {
     return body_of(it)->center;
@@ -73,22 +82,22 @@ static mor_status position(mor_context *context, const view *v, double *value)
 {
     MOR_TRY(context, along(context, v, pick_center, value));
     *value -= mor_vector_dot(v->frame.origin, v->frame.direction);
-    return MOR_OK;
+    return present(v, MOR_OK, value);
 }
 
 static mor_status velocity(mor_context *context, const view *v, double *value)
 {
-    return along(context, v, pick_velocity, value);
+    return present(v, along(context, v, pick_velocity, value), value);
 }
 
 static mor_status rotation_angle(mor_context *context, const view *v, double *value)
 {
-    return along(context, v, pick_rotation, value);
+    return present(v, along(context, v, pick_rotation, value), value);
 }
 
 static mor_status angular_velocity(mor_context *context, const view *v, double *value)
 {
-    return along(context, v, pick_spin, value);
+    return present(v, along(context, v, pick_spin, value), value);
 }
 
 static mor_status force_soil(mor_context *context, const view *v, double *value)
@@ -159,7 +168,7 @@ static mor_status kinetic_energy(mor_context *context, const view *v, double *va
     double angular[3];
     MOR_TRY(context, find_body(context, v, &it));
     *value = it->group->operations->momentum(it->group, it->index, momentum, angular);
-    return MOR_OK;
+    return present(v, MOR_OK, value);
 }
 
 static mor_status elastic_energy(mor_context *context, const view *v, double *value)
@@ -176,7 +185,7 @@ static mor_status depth(mor_context *context, const view *v, double *value)
     const mor_simulation_body *it = NULL;
     MOR_TRY(context, find_body(context, v, &it));
     *value = mor_simulation_body_depth(it, v->frame.up, mor_vector_dot(v->frame.origin, v->frame.up));
-    return MOR_OK;
+    return present(v, MOR_OK, value);
 }
 
 static mor_status largest_depth(mor_context *context, const view *v, double *value)

@@ -342,7 +342,7 @@ static mor_status point_position(mor_context *context, const view *v, double *va
     double arm[3];
     (void)context;
     *value = NAN;
-    if (find_arm(v, arm)) {
+    if (find_arm(v, arm) && !v->body->group->boundary.patches[v->body->index].is_removed) {
         const mor_body *body = &v->body->group->bodies[v->body->index];
         *value = mor_vector_dot(body->center, v->frame.direction) + mor_vector_dot(arm, v->frame.direction) -
                  mor_vector_dot(v->frame.origin, v->frame.direction);
@@ -355,7 +355,7 @@ static mor_status point_velocity(mor_context *context, const view *v, double *va
     double arm[3];
     (void)context;
     *value = NAN;
-    if (find_arm(v, arm)) {
+    if (find_arm(v, arm) && !v->body->group->boundary.patches[v->body->index].is_removed) {
         const mor_body *body = &v->body->group->bodies[v->body->index];
         double velocity[3] = {body->velocity[0], body->velocity[1], body->velocity[2]};
         mor_vector_cross_add(1.0, body->angular_velocity, arm, velocity);

@@ -51,7 +51,8 @@ void mor_probe_track_free(mor_context *context, mor_probe_track **track);
 mor_status mor_probe_track_start(mor_context *context, mor_probe_track *track);
 
 /** After a resume: probes that were not there before begin now.
- *  @param track [in,out]  as the checkpoint left it */
+ *  @param track [in,out]  as the checkpoint left it
+ *  Returns: MOR_OK; as mor_gauges_resume. */
 mor_status mor_probe_track_resume(mor_context *context, mor_probe_track *track);
 
 /** Lists what the probes remember.

@@ -38,7 +38,8 @@ mor_status mor_sweep_quantity_convert(mor_context *context, const mor_units *uni
 mor_status mor_sweep_quantity_members(const mor_case_reader *reader, const mor_case_node *group,
                                       const char *const *names, int n, char *unit, double *values);
 
-/** What follows a whole number in a case: "L" where it needs more than 32 bits, else "". */
+/** Returns what follows a whole number in a case: "L" where it needs more than 32 bits, else ""; static text.
+ *  @param value [in]  any unit */
 const char *mor_sweep_quantity_suffix(double value);
 
 /** Writes a number with the unit it is in, so that a case reads the same number.

@@ -108,7 +108,6 @@ static void ranges_end_at_their_end(void **state)
     expect_settings(b, 24, "a=30 deg | b=0.5");
 }
 
-/* A choice takes other variables away, sets several keys, and may have a case of its own. */
 /* Numbers of more than 32 bits carry the L that a case needs, and all their digits. */
 static void large_whole_numbers_keep_their_digits(void **state)
 {
@@ -119,6 +118,7 @@ static void large_whole_numbers_keep_their_digits(void **state)
     expect_settings(b, 3, "x=3000000000L | y=20261128000003L");
 }
 
+/* A choice takes other variables away, sets several keys, and may have a case of its own. */
 static void choices_leave_out_what_has_no_meaning_with_them(void **state)
 {
     bench *b = *state;
