@@ -122,7 +122,7 @@ typedef struct mor_soil {
     mor_skin_places boundary_places;            /* when those of walls and rocks were; with a tree of its own */
     mor_tree boundary_tree;                     /* of the particles then */
     double *ranges;                             /* shape [2 * clusters - 1, 6]; scratch, see core/particle/skin.h, m */
-    bool has_outflow;                           /* particles are to be removed at the end of the step */
+    bool has_outflow;                           /* in this step, whose end removes them */
     int64_t n_outflow;                          /* particles that have left the domain since the start */
     double outflow[MOR_SOIL_OUTFLOW_STATE];     /* of those, units of the enum above */
     bool has_lists;                             /* lists exist and belong to the present order */

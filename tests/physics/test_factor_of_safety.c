@@ -264,7 +264,8 @@ static void options_out_of_range_are_refused_with_what_is_allowed(void **state)
                   {{0.5, NAN, 0.01, NAN, ""}, "empty list"},
                   {{0.5, NAN, 0.01, NAN, "1 m,,2 m"}, "spacings"},
                   {{0.5, NAN, 0.01, NAN, "1 kg"}, "found '1 kg' in the spacings"},
-                  {{0.5, NAN, 0.01, NAN, "1 m, 0.5 m, 0 m"}, "found '0 m' in the spacings"}};
+                  {{0.5, NAN, 0.01, NAN, "1 m, 0.5 m, 0 m"}, "found '0 m' in the spacings"},
+                  {{0.5, NAN, 0.01, NAN, "1 m, 100 cm"}, "found '100 cm' in the spacings, which is there twice"}};
     run_folder *folder = *state;
     for (size_t k = 0; k < sizeof faults / sizeof *faults; ++k) {
         char path[MOR_PATH_BYTES];

@@ -84,11 +84,33 @@ static void units_that_are_assumed_are_told(void **state)
                      &n_bytes));
 }
 
+/* The shear strain is axial - eps_v / 3 of a cylinder alone: such points are drawn where those
+ * are that give it, of another specimen they are not. */
+static void the_shear_strain_of_a_cylinder_is_that_of_no_other_specimen(void **state)
+{
+    static const char *const paths[2] = {"triaxial-compression", "true-triaxial"};
+    run_folder *folder = *state;
+    for (int k = 0; k < 2; ++k) {
+        size_t n_bytes[2];
+        unsigned char *without = draw_beside(
+            folder, paths[k], "axial_strain [%],eps_v [%],p [kPa],q [kPa]\n0,0,100,0\n1,0.3,110,50\n", "", &n_bytes[0]);
+        unsigned char *with = draw_beside(
+            folder, paths[k], "axial_strain [%],eps_q [%],eps_v [%],p [kPa],q [kPa]\n0,0,0,100,0\n1,0.9,0.3,110,50\n",
+            "", &n_bytes[1]);
+        const bool is_same = n_bytes[0] == n_bytes[1] && memcmp(without, with, n_bytes[0]) == 0;
+        assert_true(is_same == (k == 0));
+        free(without);
+        free(with);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(measured_values_are_drawn_where_they_can_be_and_missing_columns_named,
                                         run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(the_shear_strain_of_a_cylinder_is_that_of_no_other_specimen, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(units_that_are_assumed_are_told, run_folder_setup, run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

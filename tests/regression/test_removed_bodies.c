@@ -63,7 +63,7 @@ static void what_was_removed_before_a_run_is_not_listed_in_it(void **state)
     assert_non_null(memmem(text, n_bytes, "boulder,", 8));
     assert_null(memmem(text, n_bytes, "\nblock", 6));
     free(text);
-    /* Pictures leave out what snapshots mark. */
+    /* By this mark pictures leave it out. */
     mor_snapshot_list list;
     mor_snapshot snapshot;
     mor_context *context = &folder->context;
@@ -85,10 +85,40 @@ static void what_was_removed_before_a_run_is_not_listed_in_it(void **state)
     mor_snapshot_list_clear(context, &list);
 }
 
+/* Two blocks fall freely, one of them until it is removed: nothing is lost, and both are where they began, beyond the
+ * line. */
+static void the_energy_of_a_removed_body_is_not_lost_and_its_side_is_known(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    session_run_text(folder,
+                     "dimension = 2; spacing = '50 mm'; gravity = (0, -9.81); end = '0.2 s';"
+                     "domain = { min = (-1, -1); max = (6, 3); };"
+                     "bodies = ( { name = 'stays'; shape = { type = 'box'; min = (-0.2, -0.2); max = (0.2, 0.2); };"
+                     "    position = (2, 1); material = { model = 'rigid'; density = 2500; }; },"
+                     "  { name = 'goes'; shape = { type = 'box'; min = (-0.2, -0.2); max = (0.2, 0.2); };"
+                     "    position = (4, 1); material = { model = 'rigid'; density = 2500; }; removed_at = 0.1; } );"
+                     "probes = ( { name = 'balance'; type = 'bodies_energy_balance'; }, { type = 'boulder_travel'; },"
+                     "  { name = 'line'; type = 'passages'; origin = (1, 0); direction = (1, 0); } );"
+                     "output = { snapshots = 2; pictures = false; };",
+                     "run");
+    assert_near(finished_run_read_value(folder, "run", "balance", -1), 1.0, 1e-9); /* to rounding */
+    assert_true(finished_run_read_value(folder, "run", "line", -1) == 0.0);
+    char *text = (char *)run_folder_load(finished_run_file(folder, path, "run", "boulders.csv"), &n_bytes);
+    assert_non_null(memmem(text, n_bytes, "line_beyond [1]", 15));
+    /* Of the one that is there: rest 0, no removal, beyond, no passage. */
+    assert_non_null(memmem(text, n_bytes, ",0,,1,,\n", 8));
+    assert_non_null(memmem(text, n_bytes, ",,0.1,1,,\n", 10));
+    free(text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_removed_body_counts_in_no_result, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(the_energy_of_a_removed_body_is_not_lost_and_its_side_is_known,
+                                        run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(what_was_removed_before_a_run_is_not_listed_in_it, run_folder_setup,
                                         run_folder_teardown),
     };

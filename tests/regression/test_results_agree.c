@@ -51,6 +51,28 @@ static void what_passes_an_open_face_is_what_left(void **state)
     }
 }
 
+/* A floor bears the weight of the sand; a gauge that looks up sees it with the wrong sign. */
+static void a_gauge_against_the_load_is_told_to_be_reversed(void **state)
+{
+    static const char *const looks[] = {"(0, -1)", "(0, 1)"};
+    run_folder *folder = *state;
+    for (int k = 0; k < 2; ++k) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 "dimension = 2; spacing = '50 mm'; gravity = (0, -9.81); end = '20 ms';"
+                 "domain = { min = (-1, -1); max = (2, 2); };"
+                 "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0); max = (1, 0.5); };" //
+                 SAND("initial_stress = { type = 'k0'; };") "walls = ( " FLOOR " );"
+                                                            "gauges = ( { name = 'floor'; wall = 'floor'; direction = "
+                                                            "%s; } );"
+                                                            "output = { snapshots = 2; pictures = false; };",
+                 looks[k]);
+        program_outcome outcome = run_text(folder, text, k == 0 ? "down" : "up", as_it_is, 0);
+        assert_true((strstr(outcome.errors, "acts against its direction") != NULL) == (k == 1));
+        program_clear(&outcome);
+    }
+}
+
 static void the_impulse_on_a_gate_is_that_of_its_gauge_and_no_gap_is_left_of_it(void **state)
 {
     run_folder *folder = *state;
@@ -108,7 +130,7 @@ static void the_angle_of_reach_is_that_of_the_mirror_image(void **state)
     assert_near(finished_run_read_value(folder, "run", "left", -1), right, 1e-3);
 }
 
-/* Four grains of a thousand lie far beyond and below the front: a straight line from the top to the front is at
+/* Four grains of two thousand lie far beyond and below the front: a straight line from the top to the front is at
  * atan(2 / 10), to the waves of 20 ms. */
 static void grains_beyond_the_front_do_not_steepen_the_angle_of_reach(void **state)
 {
@@ -132,6 +154,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(what_passes_an_open_face_is_what_left, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_gauge_against_the_load_is_told_to_be_reversed, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_impulse_on_a_gate_is_that_of_its_gauge_and_no_gap_is_left_of_it,
                                         run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_angle_of_reach_is_that_of_the_mirror_image, run_folder_setup,

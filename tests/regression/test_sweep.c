@@ -189,6 +189,27 @@ static void wrong_settings_are_all_told_before_anything_runs(void **state)
 }
 
 /* An expectation that is missed is told; its member is used. */
+/* Two choices with one number are told apart by their labels. */
+static void choices_with_a_number_keep_their_labels(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    size_t n_bytes = 0;
+    store_sweep(folder,
+                SMALL RUN_OUT "vary = ( { name = 'push'; choices = ("
+                              "  { label = 'slow'; value = 1; set = ( 'soil[0].velocity=(0.1, 0)' ); },"
+                              "  { label = 'fast'; value = 1; set = ( 'soil[0].velocity=(0.2, 0)' ); } ); } );");
+    program_outcome outcome =
+        program_run(folder, (const char *[]){"sweep", "sweep.cfg", "-o", "labels", "-t", "2", NULL}, 0);
+    program_clear(&outcome);
+    char *text = (char *)run_folder_load(finished_run_file(folder, path, "labels", "members.csv"), &n_bytes);
+    assert_non_null(text);
+    assert_non_null(memmem(text, n_bytes, "member,push,push_label,state", 28));
+    assert_non_null(memmem(text, n_bytes, "\n001,1,slow,", 12));
+    assert_non_null(memmem(text, n_bytes, "\n002,1,fast,", 12));
+    free(text);
+}
+
 static void members_that_miss_an_expectation_are_used(void **state)
 {
     run_folder *folder = *state;
@@ -544,6 +565,7 @@ int main(void)
         WITH_FOLDER(failed_members_are_named_and_the_others_used),
         WITH_FOLDER(statistics_are_those_of_the_members_used),
         WITH_FOLDER(wrong_settings_are_all_told_before_anything_runs),
+        WITH_FOLDER(choices_with_a_number_keep_their_labels),
         WITH_FOLDER(members_that_miss_an_expectation_are_used),
         WITH_FOLDER(members_that_nothing_reached_count_as_not_reached),
         WITH_FOLDER(number_of_members_at_once_changes_no_byte),

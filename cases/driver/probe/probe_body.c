@@ -375,8 +375,7 @@ const mor_probe_measure mor_probe_body_measures[] = {
      .run = bodies_damped_energy},
     {.type = {"bodies_energy_balance", "1", "1", 0, 0, OF_BODIES, 100.0,
               "(total energy + energy lost to viscous damping and contact + energy of what left or was removed) / "
-              "initial total "
-              "energy"},
+              "initial total energy"},
      .run = bodies_energy_balance,
      .cost = MOR_PROBE_COST_ENERGIES},
     {.type = {"contact_energy", "J", "J/m", 0, 0, OF_BODIES, 100.0, "energy stored in contacts of bodies"},

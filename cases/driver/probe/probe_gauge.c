@@ -44,8 +44,7 @@ static double find_unfiltered(const view *v)
 const mor_probe_measure mor_probe_gauge_measures[] = {
     {.type = {"gauge_normal", "N", "N/m", GAUGE, GAUGE, FORCE, 100.0,
               "normal force on a gauge by soil and bodies, along its direction, filtered as the gauge says; mean and "
-              "impulse "
-              "are of what is not filtered"},
+              "impulse are of what is not filtered"},
      .run = read_number,
      .integrand = find_unfiltered,
      .offset = offsetof(mor_gauge_reading, normal)},

@@ -452,7 +452,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     warn_of_motion(context, s);
     mor_simulation_warn_of_stiffening(context, s, MOR_RUN_WARNING_AT_END);
     MOR_TRY(context, warn_of_energy(context, s));
-    MOR_TRY(context, mor_run_gauges_warn_of_growth(context, &s->probes->gauges, options->folder));
+    MOR_TRY(context, mor_run_gauges_warn(context, &s->probes->gauges, options->folder));
     MOR_TRY(context, mor_run_files_conclude(context, files, speed, NULL, &outcome->n_missed));
     log_end(context, s, p, outcome);
     fflush(options->output); /* a signal may end the program while it draws */

@@ -249,7 +249,7 @@ static double find_early_peak(const mor_table_data *data, int gauge, double *unt
     return peak;
 }
 
-mor_status mor_run_gauges_warn_of_growth(mor_context *context, const mor_gauges *gauges, const char *folder)
+mor_status mor_run_gauges_warn(mor_context *context, const mor_gauges *gauges, const char *folder)
 {
     const double growth = 0.02;
     char path[MOR_PATH_BYTES];

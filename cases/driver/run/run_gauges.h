@@ -56,10 +56,11 @@ void mor_run_gauges_close(mor_context *context, mor_run_gauges *it);
  *  Returns: MOR_OK; MOR_ERROR_IO. */
 mor_status mor_run_gauges_conclude(mor_context *context, const mor_gauges *gauges, const char *folder);
 
-/** Warns of each gauge whose peak rose in the last tenth of the run by more than 2 %: its largest load may come later.
+/** Warns of each gauge whose peak rose in the last tenth of the run by more than 2 %, so that its largest load may come
+ *  later, or which is loaded against its direction, so that its peak is the smallest load.
  *  @param folder  [in]      zero-terminated; of the run, which holds gauges.csv up to its end
  *  Returns: as mor_table_data_read. */
-mor_status mor_run_gauges_warn_of_growth(mor_context *context, const mor_gauges *gauges, const char *folder);
+mor_status mor_run_gauges_warn(mor_context *context, const mor_gauges *gauges, const char *folder);
 
 /** Lists the numbers of gauge_peaks.csv as results "gauge.NAME.peak_normal" and so on, each with the filter of its
  *  gauge as a remark where it is filtered. No probe can have such a name.

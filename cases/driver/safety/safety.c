@@ -181,7 +181,6 @@ static mor_status find_body(mor_context *context, mor_safety *it)
     return mor_safety_body_find(context, it->mechanism, &it->setup.reference, largest, &it->body);
 }
 
-/* What the search found may hang on one of its limits, or on too few particles. */
 /* What stays undecided may lie anywhere in the band. */
 static void warn_of_width(mor_context *context, const mor_safety *it, double tolerance)
 {
@@ -190,12 +189,13 @@ static void warn_of_width(mor_context *context, const mor_safety *it, double tol
     if (width > wide * tolerance && it->band.n_undecided > 0) { /* NaN: an end is missing */
         mor_context_log(
             context, MOR_LOG_WARNING,
-            "the band from %.4g to %.4g is %.2g times as wide as the tolerance asked for, %g: %d factors in "
-            "it stayed undecided, see the reasons in trials.csv; take its lower end, or a finer spacing",
+            "the band from %.4g to %.4g is %.2g times as wide as the tolerance asked for, %g: %d factors in it stayed "
+            "undecided, see the reasons in trials.csv; take its lower end, or a finer spacing",
             it->band.stable, it->band.fails, width / tolerance, tolerance, it->band.n_undecided);
     }
 }
 
+/* What the search found may hang on one of its limits, or on too few particles. */
 static void warn_of_result(mor_context *context, const mor_safety *it)
 {
     const double near_limit = 0.8;
