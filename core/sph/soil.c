@@ -137,7 +137,8 @@ static const mor_stage soil_stages[] = {
      SHARED(CLOSED) | BIT(STRAIN_RATE), BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "makes both those of the linear field that fits the neighbors, when switched on; stores the strain rate", has_fit},
     {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
-     "strain rate, stored for the reconstruction of the next step, when switched on without a fit", has_strain_rate},
+     "strain rate, stored for the reconstruction and the slip along walls of the next step, when kept without a fit",
+     has_strain_rate},
     {"regularization", mor_soil_regularize, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(VELOCITY_GRADIENT),
      SHARED(REGULARIZATION), BIT(POSITION) | BIT(VELOCITY) | SHARED(BOUNDS), "XSPH and shifting, when switched on",
      has_regularization},
@@ -325,21 +326,20 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     MOR_CHECK(context, material->material->form == MOR_MATERIAL_RATE, MOR_ERROR_ARGUMENT,
               "material '%s' is for elastic bodies; soil needs a material in rate form", material->material->name);
     MOR_TRY(context, set_kinds(context, soil));
+    const mor_scheme *scheme = &settings->scheme;
+    const uint64_t all = ~(uint64_t)0;
     uint64_t fields = ((uint64_t)1 << MOR_FIELD_CORE_COUNT) - 1;
-    fields &= settings->scheme.artificial_stress ? ~(uint64_t)0 : ~BIT(ARTIFICIAL_STRESS);
-    fields &= settings->scheme.stress_diffusion > 0.0 ? ~(uint64_t)0 : ~BIT(STRESS_DIFFUSION);
-    fields &= settings->scheme.soil_hourglass > 0.0 ? ~(uint64_t)0
-                                                    : ~(BIT(HOURGLASS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT));
-    fields &= settings->scheme.angular_momentum ? ~(uint64_t)0 : ~(BIT(SPIN_STRESS) | BIT(HOURGLASS_MOMENT));
-    fields &= settings->scheme.stress_diffusion > 0.0 && settings->scheme.stress_diffusion_limiter == 2
-                  ? ~(uint64_t)0
-                  : ~(BIT(MEAN_STRESS) | BIT(FLOW));
-    fields &= settings->scheme.separation_memory ? ~(uint64_t)0 : ~BIT(SEPARATION);
-    fields &= soil->keeps_gaps ? ~(uint64_t)0 : ~(GAPS | BIT(GROWTH));
-    fields &= settings->scheme.sleep_after > 0.0 ? ~(uint64_t)0 : ~CALM;
-    fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? ~(uint64_t)0
-                                                                                               : ~BIT(CROSSINGS);
-    fields &= settings->scheme.reconstruction == 1 ? ~(uint64_t)0 : ~BIT(STRAIN_RATE);
+    fields &= scheme->artificial_stress ? all : ~BIT(ARTIFICIAL_STRESS);
+    fields &= scheme->stress_diffusion > 0.0 ? all : ~BIT(STRESS_DIFFUSION);
+    fields &= scheme->soil_hourglass > 0.0 ? all : ~(BIT(HOURGLASS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT));
+    fields &= scheme->angular_momentum ? all : ~(BIT(SPIN_STRESS) | BIT(HOURGLASS_MOMENT));
+    fields &=
+        scheme->stress_diffusion > 0.0 && scheme->stress_diffusion_limiter == 2 ? all : ~(BIT(MEAN_STRESS) | BIT(FLOW));
+    fields &= scheme->separation_memory ? all : ~BIT(SEPARATION);
+    fields &= soil->keeps_gaps ? all : ~(GAPS | BIT(GROWTH));
+    fields &= scheme->sleep_after > 0.0 ? all : ~CALM;
+    fields &= settings->is_periodic[0] || settings->is_periodic[1] || settings->is_periodic[2] ? all : ~BIT(CROSSINGS);
+    fields &= scheme->reconstruction == 1 || scheme->coulomb_tension != 0 ? all : ~BIT(STRAIN_RATE);
     mor_status status = mor_set_init(context, &soil->set, name, n_particles, fields);
     if (status == MOR_OK) {
         status = add_state(context, soil);

@@ -191,8 +191,8 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_SHORT_LISTS);
     arrays.artificial_stress = mor_images_extend(
         context, &soil->images, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), 6, soil->image_stress);
-    arrays.strain_rate =
-        mor_images_extend(context, &soil->images, mor_view_read(view, MOR_FIELD_STRAIN_RATE), 6, soil->image_strains);
+    const double *rate = soil->settings.scheme.reconstruction == 1 ? mor_view_read(view, MOR_FIELD_STRAIN_RATE) : NULL;
+    arrays.strain_rate = mor_images_extend(context, &soil->images, rate, 6, soil->image_strains);
     const mor_pair_audit_job pairs = {.constants = &soil->constants,
                                       .arrays = &arrays,
                                       .velocity = job->velocity,

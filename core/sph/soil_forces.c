@@ -171,8 +171,8 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
     arrays.artificial_stress = mor_images_extend(
         context, &soil->images, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), 6, soil->image_stress);
-    arrays.strain_rate =
-        mor_images_extend(context, &soil->images, mor_view_read(view, MOR_FIELD_STRAIN_RATE), 6, soil->image_strains);
+    const double *rate = soil->settings.scheme.reconstruction == 1 ? mor_view_read(view, MOR_FIELD_STRAIN_RATE) : NULL;
+    arrays.strain_rate = mor_images_extend(context, &soil->images, rate, 6, soil->image_strains);
     arrays.acceleration = mor_view_write(view, MOR_FIELD_ACCELERATION);
     arrays.stress_diffusion = mor_view_write(view, MOR_FIELD_STRESS_DIFFUSION);
     arrays.hourglass_moment = mor_view_write(view, MOR_FIELD_HOURGLASS_MOMENT);

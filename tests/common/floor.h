@@ -106,10 +106,13 @@ static inline double *floor_record(floor_case *f)
 /** The soil as the wall sees it. */
 static inline mor_contact_soil floor_soil(const floor_case *f, mor_dissipation dissipation)
 {
+    static const double rest[6 * ASSEMBLY_MAX];
     return (mor_contact_soil){.coulomb_pulls = !f->presses_only,
                               .dissipation = dissipation,
                               .limiter_rate = f->soil.constants.limiter_rate,
                               .records = f->soil.records,
+                              .strain_rate = f->presses_only ? rest : NULL,
+                              .length = f->presses_only ? 1.0 : 0.0, /* soil that moves along a face slips in it */
                               .n_particles = f->soil.n};
 }
 

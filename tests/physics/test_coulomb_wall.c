@@ -179,6 +179,98 @@ static void coulomb_floor_stronger_than_the_soil_is_rough(void **state)
     }
 }
 
+/* A periodic layer of soil whose strength is a multiple of the friction of its floor, at 15 degrees. */
+static const char layer_in_plane[] =
+    "dimension = 2; spacing = '0.2 m'; end = '1 s'; gravity = ('2.5390 m/s2', '-9.4757 m/s2');"
+    "domain = { min = ('0 m', '-1 m'); max = ('2 m', '6 m'); periodic = 'x'; };"
+    "soil = ( { name = 'layer'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('2 m', '4 m'); };"
+    "  material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '20 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '30 deg'; cohesion = '5 kPa'; }; initial_stress = { type = 'k0'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'coulomb'; friction_coefficient = 0.2;"
+    "  shape = { type = 'half_space'; point = ('0 m', '0 m'); normal = (0, 1); }; } );"
+    "probes = ( { type = 'momentum'; direction = (1, 0); }, { type = 'mass'; }, { type = 'boundary_dissipation'; },"
+    "  { type = 'plastic_energy'; }, { type = 'energy_balance'; },"
+    "  { type = 'center_of_mass'; direction = (1, 0); origin = ('0 m', '0 m'); },"
+    "  { name = 'along'; type = 'wall_force'; wall = 'floor'; direction = (1, 0); },"
+    "  { name = 'across'; type = 'wall_force'; wall = 'floor'; direction = (0, -1); },"
+    "  { name = 'row_1'; type = 'soil_velocity'; direction = (1, 0);"
+    "    region = { type = 'box'; min = ('0 m', '0 m'); max = ('2 m', '0.2 m'); }; },"
+    "  { name = 'row_2'; type = 'soil_velocity'; direction = (1, 0);"
+    "    region = { type = 'box'; min = ('0 m', '0.2 m'); max = ('2 m', '0.4 m'); }; },"
+    "  { name = 'row_3'; type = 'soil_velocity'; direction = (1, 0);"
+    "    region = { type = 'box'; min = ('0 m', '0.4 m'); max = ('2 m', '0.6 m'); }; } );";
+
+/* The same in space, 2 m high. */
+static const char layer_in_space[] =
+    "dimension = 3; spacing = '0.2 m'; end = '1 s'; gravity = ('2.5390 m/s2', '0 m/s2', '-9.4757 m/s2');"
+    "domain = { min = ('0 m', '0 m', '-1 m'); max = ('1.4 m', '1.4 m', '6 m'); periodic = 'xy'; };"
+    "soil = ( { name = 'layer';"
+    "  shape = { type = 'box'; min = ('0 m', '0 m', '0 m'); max = ('1.4 m', '1.4 m', '2 m'); };"
+    "  material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '20 MPa'; poissons_ratio = 0.3;"
+    "    friction_angle = '30 deg'; cohesion = '5 kPa'; }; initial_stress = { type = 'k0'; }; } );"
+    "walls = ( { name = 'floor'; friction = 'coulomb'; friction_coefficient = 0.2;"
+    "  shape = { type = 'half_space'; point = ('0 m', '0 m', '0 m'); normal = (0, 0, 1); }; } );"
+    "probes = ( { type = 'momentum'; direction = (1, 0, 0); }, { type = 'mass'; }, { type = 'boundary_dissipation'; },"
+    "  { type = 'plastic_energy'; }, { type = 'energy_balance'; },"
+    "  { type = 'center_of_mass'; direction = (1, 0, 0); origin = ('0 m', '0 m', '0 m'); },"
+    "  { name = 'along'; type = 'wall_force'; wall = 'floor'; direction = (1, 0, 0); },"
+    "  { name = 'across'; type = 'wall_force'; wall = 'floor'; direction = (0, 0, -1); },"
+    "  { name = 'row_1'; type = 'soil_velocity'; direction = (1, 0, 0);"
+    "    region = { type = 'box'; min = ('0 m', '0 m', '0 m'); max = ('1.4 m', '1.4 m', '0.2 m'); }; },"
+    "  { name = 'row_2'; type = 'soil_velocity'; direction = (1, 0, 0);"
+    "    region = { type = 'box'; min = ('0 m', '0 m', '0.2 m'); max = ('1.4 m', '1.4 m', '0.4 m'); }; },"
+    "  { name = 'row_3'; type = 'soil_velocity'; direction = (1, 0, 0);"
+    "    region = { type = 'box'; min = ('0 m', '0 m', '0.4 m'); max = ('1.4 m', '1.4 m', '0.6 m'); }; } );";
+
+/* What slips shears no soil: a layer that is stronger than its floor slides as a block, against the coefficient times
+ * its weight, and yields nowhere. Its rows moved at 1.25, 0.40 and 0.93 m/s while a part of the slip was mirrored. */
+static void expect_layer_that_slides_as_a_block(const char *text, const char *friction, double coefficient)
+{
+    static const double along = 2.5390;  /* gravity, m/s2 */
+    static const double across = 9.4757; /* m/s2 */
+    const char *const settings[] = {friction, NULL};
+    const scene_request request = {text, (const char *const *[]){settings}, 1, 1};
+    scene *it = scene_new(&request);
+    const double start = scene_probe(it, "center_of_mass");
+    const double mass = scene_probe(it, "mass");
+    double along_sum = 0.0;
+    double across_sum = 0.0;
+    double steps[2] = {0.0, 0.0}; /* between rows, mean over time, m/s */
+    for (int k = 1; k <= 40; ++k) {
+        scene_advance(it, 0.025 * k);
+        if (k > 10) {
+            along_sum += scene_probe(it, "along");
+            across_sum += scene_probe(it, "across");
+            steps[0] += (scene_probe(it, "row_2") - scene_probe(it, "row_1")) / 30.0;
+            steps[1] += (scene_probe(it, "row_3") - scene_probe(it, "row_2")) / 30.0;
+        }
+    }
+    const double speed = scene_probe(it, "momentum") / mass;
+    const double wanted = along - coefficient * across; /* after 1 s */
+    const double work = coefficient * mass * across * (scene_probe(it, "center_of_mass") - start);
+    print_message("coefficient %.2f: %.4f for %.4f m/s, steps of rows %.4f %.4f m/s, friction %.4f, work %.4f\n",
+                  coefficient, speed, wanted, steps[0], steps[1], along_sum / across_sum,
+                  scene_probe(it, "boundary_dissipation") / work);
+    scene_expect_near("friction", along_sum / across_sum, coefficient, 0.002); /* weight swings on the soil */
+    scene_expect_near("speed", speed, wanted, 0.05); /* m/s; friction takes a tenth of a second to build up */
+    for (int k = 0; k < 2; ++k) {
+        scene_expect_near("step between rows", steps[k], 0.0, 0.02); /* m/s; the layer swings in shear */
+    }
+    scene_expect_near("dissipation over the work of friction", scene_probe(it, "boundary_dissipation") / work, 1.0,
+                      0.05); /* the base moves less than the center by the shear of the layer */
+    scene_expect_near("plastic energy over it", scene_probe(it, "plastic_energy") / work, 0.0, 0.01); /* the swing */
+    scene_expect_near("energy balance", scene_probe(it, "energy_balance"), 1.0, 0.002); /* of the integration */
+    scene_free(it);
+}
+
+static void layer_stronger_than_its_floor_slides_as_a_block(void **state)
+{
+    (void)state;
+    expect_layer_that_slides_as_a_block(layer_in_plane, "walls[0].friction_coefficient=0.1", 0.1);
+    expect_layer_that_slides_as_a_block(layer_in_plane, "walls[0].friction_coefficient=0.2", 0.2);
+    expect_layer_that_slides_as_a_block(layer_in_space, "walls[0].friction_coefficient=0.2", 0.2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -190,6 +282,7 @@ int main(void)
         cmocka_unit_test(block_stays_on_a_coulomb_floor_that_carries_it),
         cmocka_unit_test(strong_block_leaves_a_floor_that_only_presses),
         cmocka_unit_test(coulomb_floor_stronger_than_the_soil_is_rough),
+        cmocka_unit_test(layer_stronger_than_its_floor_slides_as_a_block),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

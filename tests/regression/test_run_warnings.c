@@ -131,6 +131,30 @@ static void soil_that_lies_unevenly_is_warned_of_at_the_start(void **state)
     }
 }
 
+/* Friction by the traction alone, where a boundary with Coulomb friction holds soil under tension. */
+static void coulomb_friction_that_holds_soil_is_warned_of(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    static const char *const coulomb = "bodies[0].friction_coefficient=0.3";
+    static const char *const settings[][3] = {
+        {"bodies[0].friction=coulomb", coulomb, "numerics.scheme=zhang2024"},
+        {"bodies[0].friction=coulomb", coulomb, "numerics.coulomb_tension=held"},
+        {"bodies[0].friction=coulomb", coulomb, "numerics.scheme=moraine"},
+        {"bodies[0].friction=coulomb", "bodies[0].friction_coefficient=0", "numerics.scheme=zhang2024"},
+        {"bodies[0].friction=rough", "numerics.coulomb_tension=held", "numerics.scheme=zhang2024"}};
+    finished_run_store_text(folder, rock_in_sand, path);
+    for (int k = 0; k < 5; ++k) {
+        const char *const arguments[] = {"explain", path,           "-s", settings[k][0], "-s", settings[k][1],
+                                         "-s",      settings[k][2], NULL};
+        program_outcome outcome = program_run(folder, arguments, 0);
+        const int n = count(outcome.output, "take numerics.coulomb_tension = none") +
+                      count(outcome.errors, "take numerics.coulomb_tension = none");
+        assert_int_equal(n, k < 2);
+        program_clear(&outcome);
+    }
+}
+
 /* Sand that falls by 0.1 m into a bin of its own width; ' stands for ". */
 static const char fallen_sand[] =
     "title = 'fall'; dimension = 2; spacing = '10 mm'; end = '0.5 s'; gravity = ('0 m/s2', '-9.81 m/s2');"
@@ -270,6 +294,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(soil_that_crowds_is_warned_of_at_the_end, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_that_lies_unevenly_is_warned_of_at_the_start, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(coulomb_friction_that_holds_soil_is_warned_of, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_that_lies_loosely_is_warned_of_at_the_end, run_folder_setup,
                                         run_folder_teardown),

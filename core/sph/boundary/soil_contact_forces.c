@@ -15,19 +15,16 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Tractions below this part of the bulk modulus are rounding, and do not tell whether a particle slides. */
 #define NOISE 1.0e-9
 
-/* Motion along a boundary up to this many times what the soil's rate of shear explains is shear, 1. */
-#define SHEARS 20.0
+/* Largest part of rho c0^2 that is a shear modulus, 1: half of it, for Poisson's ratios from 0 on. */
+#define LARGEST_SHEAR 0.5
 
-/* Kernel gradient over a boundary times the spacing from which on a particle is of the first layer, and by WIDTH less
- * it is behind it, 1: at a plane it is 0.44 half a spacing away, 0.21 at a spacing and 0.06 at one and a half. */
-#define FIRST 0.2
-#define WIDTH 0.1
+/* Own traction over the limit of friction from which on soil that is sheared may be stronger than the contact, 1: a
+ * traction that stays below is that of soil which yields. */
+#define YIELDS 0.9
 
-/* Share by which a traction is below the limit of friction from which on soil yields before it slips, 1. */
-#define WEAK 0.5
-
-/* Share by which a traction is above the limit of friction where all motion is slip, 1. */
-#define RAMP 0.05
+/* Rate of shear that yielding soil at a boundary may have in a step over what it had in the last, 1: the fit shows a
+ * part of the shear of a thin layer. */
+#define SPREAD 4.0
 
 /* Largest share of the kernel that a wall is taken to fill: a particle pressed into a wall sees a little over half. */
 #define LARGEST_SHARE 0.6
@@ -161,10 +158,8 @@ typedef struct boundary_terms {
     const double *velocity;         /* of the boundary, m/s */
     const double *gradient;         /* sum V grad_i W, 1/m */
     const double *repulsion;        /* acceleration by the barrier, m/s2; NULL without */
-    const double *strain_rate;      /* of the particle, 1/s; NULL: none is kept */
-    double depth;                   /* of the particle under the face of the soil, m */
+    const double *strain_rate;      /* of the particle, 1/s */
     double across;                  /* stiffness across the face over rho c0^2, 1; 0: no gap is kept */
-    bool is_near;                   /* the distance from the boundary is known, (W8) */
     double gap;                     /* between the particle and the face, m */
     double held;                    /* tension that the face bears for a moment, Pa */
     double growth;                  /* of its volume in the step if the faces mirror all, 1 */
@@ -176,36 +171,29 @@ typedef struct mirrored {
     double along, across;
 } mirrored;
 
-/* By how much a particle is behind the first layer, 0 to 1. */
-static double find_behind(const boundary_terms *p)
+/* The part of the motion of a particle along a boundary that shears the soil between it and the face, 0 to 1; the rest
+ * is slip, (W3a). A step may shear the soil until its traction is the limit of friction, as soil does that sticks, and
+ * as fast as it was sheared in the last step if its traction has stayed below the limit: it yields there, before it
+ * slips. All slip shears no soil: it would bear its strength, in place of the friction that acts on it.
+ * used: own traction over the limit, 1; slip: motion along the boundary, m/s; limit: of friction, m/s2; area:
+ * acceleration by a unit of traction, 1/(m kg/m3) */
+static double find_stick(const boundary_terms *p, const double *record, const double *normal, double used,
+                         const double *slip, double limit, double area)
 {
-    const double sees = 2.0 * p->depth * mor_vector_length(p->gradient);
-    return mor_max(mor_min((FIRST - sees) / WIDTH, 1.0), 0.0);
-}
-
-/* Leaves of the motion of a particle along a boundary what is slip, and not shear of the soil between the particle and
- * its face, whose speed is 2 D n times the depth: what grows away from the face, with the motion. The rate is a fit
- * over the support and shows a part of the shear of a thin layer along the face, so that SHEARS times as much counts as
- * shear; a block that slides has next to none. What is behind the first layer does not slip, unless the soil is about
- * as strong as the friction: its rate says nothing of the shear between it and the face. Where the particle's own
- * traction is above the limit of friction the soil bears more than that, and all of its motion is slip.
- * used: own traction over the limit, 1; slip: across the normal, m/s */
-static void leave_slip(const boundary_terms *p, const double *normal, double used, double *slip)
-{
-    const double counts = mor_max(mor_min(1.0 - (used - 1.0) / RAMP, 1.0), 0.0);
-    const double weak = mor_max(mor_min((1.0 - used) / WEAK, 1.0), 0.0);
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
     const double speed = mor_vector_length(slip);
+    const double strain = 2.0 * mor_vector_length(p->gradient); /* by the unit of length that is mirrored, 1/m */
+    const double modulus = LARGEST_SHEAR * impedance * impedance / record[MOR_RECORD_DENSITY];
+    const double yields = mor_max(mor_min((1.0 - used) / (1.0 - YIELDS), 1.0), 0.0);
     double shear[3];
-    if (p->strain_rate == NULL || !(speed > 0.0)) {
-        return;
+    if (!(used < 1.0) || !(speed > 0.0)) {
+        return used < 1.0 ? 1.0 : 0.0;
     }
     mor_symmetric_apply(p->strain_rate, normal, shear);
-    const double rate = mor_max(mor_vector_dot(shear, slip) / speed, 0.0);
-    const double shears = mor_min(SHEARS * 2.0 * p->depth * rate / speed, 1.0);
-    const double part = 1.0 - counts * mor_max(shears, p->is_near ? 0.0 : weak * find_behind(p));
-    for (int a = 0; a < 3; ++a) {
-        slip[a] *= part;
-    }
+    const double rate = mor_max(2.0 * mor_vector_dot(shear, slip) / speed, 0.0);
+    const double loads = limit * (1.0 - used) / (area * modulus * p->step);
+    const double allowed = (loads + SPREAD * yields * rate) / strain;
+    return allowed < speed ? allowed / speed : 1.0;
 }
 
 /* Friction of soil that slides faster than elastic waves explain: where its speed along the boundary exceeds that of a
@@ -297,6 +285,27 @@ static double press(const boundary_terms *p, const double *record, double closin
     return touch * (closing < 0.0 ? mor_min(along, most) : along);
 }
 
+/* Brings the tangential acceleration by the stress of a particle at a Coulomb boundary to that by friction, m/s2;
+ * returns the part of the motion along the boundary that is mirrored. Where the boundary holds soil under tension the
+ * traction alone tells whether it slips.
+ * slip: motion along the boundary, m/s; on return what of it is slip */
+static double find_friction(const boundary_terms *p, const double *record, const double *normal, double limit,
+                            double *slip, double *tangential)
+{
+    const double area = 2.0 * mor_vector_length(p->gradient) / record[MOR_RECORD_DENSITY];
+    const double used = limit > 0.0 ? mor_vector_length(tangential) / limit : INFINITY;
+    const double held = limit_friction(record, limit, area, tangential);
+    if (p->coulomb_pulls) {
+        return held;
+    }
+    const double stick = find_stick(p, record, normal, used, slip, limit, area);
+    for (int a = 0; a < 3; ++a) {
+        slip[a] *= 1.0 - stick;
+    }
+    resist_sliding(slip, limit, limit / (area * record[MOR_RECORD_IMPEDANCE]), tangential);
+    return stick;
+}
+
 /* Adds the acceleration of one particle by the wall to what the continued stress gave. A boundary that only presses
  * does not pull, and does not press across a gap. Where no gap is kept it mirrors no motion across where it would have
  * to pull. */
@@ -340,15 +349,10 @@ static mirrored find_boundary_acceleration(const boundary_terms *p, const double
         slip[a] = relative[a] + closing * normal[a];
     }
     if (is_coulomb) {
-        const double speed = mor_vector_length(slip);
         const double limit = friction_limit(p, along);
         const double drag = -factor * record[MOR_RECORD_IMPEDANCE];
-        const double used = limit > 0.0 ? mor_vector_length(tangential) / limit : INFINITY;
-        stick = limit_friction(record, limit, -factor, tangential);
-        if (!p->coulomb_pulls) {
-            leave_slip(p, normal, used, slip);
-            resist_sliding(slip, limit, limit / drag, tangential);
-        }
+        const double speed = mor_vector_length(slip);
+        stick = find_friction(p, record, normal, limit, slip, tangential);
         if (continues_freely) {
             add_along_wall(continuation, speed * drag, along, tangential);
         }
@@ -395,7 +399,6 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
                         .limits_all = mor_soil_contact_limits_all(contact, soil->coulomb_pulls),
                         .limiter_rate = soil->limiter_rate,
                         .frees = contact->normals != NULL,
-                        .depth = soil->depth,
                         .step = soil->length};
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], soil->n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
@@ -415,12 +418,11 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         if (soil->of_soil != NULL) {
             p.limiter_rate = 2.0 * soil->of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_LIMITER];
         }
-        p.strain_rate = soil->strain_rate != NULL ? soil->strain_rate + 6 * i : NULL;
+        p.strain_rate = soil->strain_rate + 6 * i;
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;
         p.across = mor_soil_contact_across(soil, p.friction.kind, i);
-        p.is_near = mor_soil_contact_distance(contact, lane) < INFINITY;
         find_contact(contact, soil, lane, i, &p);
         const mirrored parts = find_boundary_acceleration(&p, record, own);
         contact->stick[lane] = parts.along;

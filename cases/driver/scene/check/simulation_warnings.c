@@ -296,6 +296,37 @@ static void warn_of_shifting(mor_context *context, const mor_case *c)
     }
 }
 
+/* Whether soil slips along something by Coulomb's law. */
+static bool has_coulomb_friction(mor_case_friction friction, double coefficient, const mor_case_frictions *with)
+{
+    bool found = friction == MOR_CASE_FRICTION_COULOMB && coefficient > 0.0;
+    for (int k = 0; k < with->n; ++k) {
+        found = found || (with->of[k].friction == MOR_CASE_FRICTION_COULOMB && with->of[k].coefficient > 0.0);
+    }
+    return found;
+}
+
+/* Friction by the traction alone: what slips is sheared all the same, and bears its strength in its first row. */
+static void warn_of_held_friction(mor_context *context, const mor_case *c)
+{
+    bool found = false;
+    for (int k = 0; k < c->n_walls; ++k) {
+        const mor_case_wall *it = &c->walls[k];
+        found = found || has_coulomb_friction(it->friction, it->friction_coefficient, &it->friction_with);
+    }
+    for (int k = 0; k < c->n_bodies; ++k) {
+        const mor_case_body *it = &c->bodies[k];
+        found = found || has_coulomb_friction(it->soil_friction, it->soil_friction_coefficient, &it->friction_with);
+    }
+    if (found && c->n_soils > 0 && c->numerics.coulomb_tension == 0) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s: with numerics.coulomb_tension = held, that of scheme zhang2024, soil that slides as a "
+                        "whole along a face with Coulomb friction moves in rows of unlike speed and up to a fifth too "
+                        "fast, or, if strong, as on a rougher face; take numerics.coulomb_tension = none",
+                        c->path);
+    }
+}
+
 /* Whether a body may be kept from falling: it is prescribed, or something outside fixes it. */
 static bool is_carried(const mor_case_body *it)
 {
@@ -323,6 +354,7 @@ mor_status mor_simulation_warn(mor_context *context, const mor_simulation *simul
     const mor_case *c = simulation->the_case;
     warn_of_gravity(context, c);
     warn_of_shifting(context, c);
+    warn_of_held_friction(context, c);
     warn_of_thinness(context, simulation);
     warn_of_gaps(context, simulation);
     MOR_TRY(context, mor_soil_neighbors_warn(context, simulation));

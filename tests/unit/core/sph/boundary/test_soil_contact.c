@@ -134,11 +134,10 @@ static void coulomb_wall_holds_nothing_under_tension(void **state)
     split(3, f.acceleration, &normal, tangential);
     assert_true(normal < 0.0);                                                /* the mirror still pulls */
     assert_true(mor_vector_length(tangential) <= 64 * DBL_EPSILON * -normal); /* the normal tilts by some ulp */
-    const double stick = sticking_part(&f, 0.0, 1e3);
     f.presses_only = true;
     floor_run(&f, MOR_DISSIPATION_BOTH);
     assert_true(mor_vector_length(f.acceleration) == 0.0); /* exact: nothing pulls, and nothing rubs without pressure */
-    assert_true(stick < 1e-5 && fabs(f.wall.stick[0] - stick) <= 1e-12 * stick); /* normals tilt by some ulp */
+    assert_true(f.wall.stick[0] == 0.0);                   /* and nothing shears it */
     floor_close(&f);
 }
 
@@ -426,44 +425,102 @@ static void rebuilding_a_wall_allocates_only_for_more_soil(void **state)
     floor_close(&f);
 }
 
-/* Acceleration along the floor, over its limit by friction, of a particle at a height that moves along it at many times
- * the speed of a wave as large as that limit. The rate of its strain shows no shear.
- * height: spacings; shear: traction over the limit, 1 */
-static double resist_motion(int dimension, double height, double shear)
+/* A particle half a spacing above a floor that only presses, and how it moves along it. */
+typedef struct motion_along {
+    double own;   /* traction over the limit of friction, 1 */
+    double speed; /* over that of a wave as large as that limit, 1 */
+    double rate;  /* of shear in the last step, over what all of the motion mirrored would shear, 1 */
+} motion_along;
+
+/* What the floor does about it. */
+typedef struct met_along {
+    double friction; /* over its limit, against the motion, 1 */
+    double stick;    /* mirrored part of the motion, 1 */
+    double load;     /* traction by that part in the step, over the limit, of soil of shear modulus rho c0^2 / 2; 1 */
+} met_along;
+
+static met_along move_along(int dimension, const motion_along *motion)
 {
-    static const double rate[6 * ASSEMBLY_MAX] = {0.0};
-    const double coefficient = 0.3;
-    const double pressure = 4e3;
-    floor_case f;
+    static const double coefficient = 0.3;
+    static const double pressure = 4e3;
+    static const double step = 1e-5;
+    double rate[6 * ASSEMBLY_MAX] = {0.0};
     double point[3] = {0.0, 0.0, 0.0};
-    point[dimension - 1] = height * ASSEMBLY_SPACING;
+    double gradient[3];
+    floor_case f;
+    point[dimension - 1] = 0.5 * ASSEMBLY_SPACING;
     assembly_open(&f.soil, dimension, point, 1);
     floor_open(&f, MOR_WALL_COULOMB, coefficient);
     f.presses_only = true;
-    floor_set_stress(&f, -pressure, shear * coefficient * pressure);
+    floor_set_stress(&f, -pressure, 0.0);
     floor_run(&f, MOR_DISSIPATION_BOTH);
-    const double *record = floor_record(&f);
-    floor_record(&f)[MOR_RECORD_VELOCITY] = -100.0 * pressure / record[MOR_RECORD_IMPEDANCE];
+    double *record = floor_record(&f);
+    const double limit = coefficient * pressure;
+    const double speed = motion->speed * limit / record[MOR_RECORD_IMPEDANCE];
+    floor_gradient(&f, record, gradient);
+    const double strain = 2.0 * mor_vector_length(gradient) * speed; /* by all of the motion mirrored, 1/s */
+    const int shear = dimension == 3 ? MOR_ZX : MOR_XY;
+    record[MOR_RECORD_STRESS + shear] = motion->own * limit;
+    record[MOR_RECORD_VELOCITY] = speed;
+    rate[shear] = 0.5 * motion->rate * strain;
     mor_contact_soil soil = floor_soil(&f, MOR_DISSIPATION_BOTH);
     soil.strain_rate = rate;
-    soil.depth = 0.5 * ASSEMBLY_SPACING;
+    soil.length = step;
     memset(f.acceleration, 0, sizeof f.acceleration);
     mor_soil_contact_sum_forces(&f.soil.context, &f.wall, &soil, f.acceleration);
-    const double along = f.acceleration[0] / (coefficient * f.acceleration[dimension - 1]);
+    const double impedance = record[MOR_RECORD_IMPEDANCE];
+    const double modulus = 0.5 * impedance * impedance / record[MOR_RECORD_DENSITY];
+    const met_along met = {-f.acceleration[0] / (coefficient * f.acceleration[dimension - 1]), f.wall.stick[0],
+                           modulus * strain * f.wall.stick[0] * step / limit};
     floor_close(&f);
-    return along;
+    return met;
 }
 
-/* What slips on the floor meets the limit of its friction. Soil above the first layer does not slip by its own motion,
- * but where its own traction is that limit. */
-static void first_layer_slips_and_soil_above_it_where_it_is_weak(void **state)
+/* What bears the limit of friction slips, at whatever speed; the floor does not shear it. */
+static void soil_that_bears_the_limit_of_friction_slips_without_shear(void **state)
 {
     const double tolerance = 1e-9; /* rounding */
     (void)state;
     for (int dimension = 2; dimension <= 3; ++dimension) {
-        assert_true(fabs(resist_motion(dimension, 0.5, 0.0) - 1.0) < tolerance);
-        assert_true(fabs(resist_motion(dimension, 1.5, 0.0)) < tolerance);
-        assert_true(fabs(resist_motion(dimension, 1.5, 1.0) - 1.0) < tolerance);
+        for (int k = 0; k < 4; ++k) {
+            const motion_along motion = {k % 2 == 0 ? 1.0 + tolerance : 3.0, k < 2 ? 1e-3 : 100.0, 1.0};
+            const met_along met = move_along(dimension, &motion);
+            assert_true(met.stick == 0.0 && fabs(met.friction - 1.0) < tolerance);
+        }
+    }
+}
+
+/* Soil is sheared by the motion until it bears the limit, and no more: however fast it slides, a step loads elastic
+ * soil by what is missing. */
+static void sliding_loads_soil_up_to_the_limit_of_friction(void **state)
+{
+    const double tolerance = 1e-9; /* rounding */
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        for (int k = 0; k < 3; ++k) {
+            const double own = 0.45 * k;
+            const met_along met = move_along(dimension, &(motion_along){own, 1e3, 0.0});
+            assert_true(met.stick < 0.1 && fabs(own + met.load - 1.0) < tolerance);
+            assert_true(fabs(met.friction - 1.0) < tolerance);
+        }
+        const met_along slow = move_along(dimension, &(motion_along){0.5, 1e-3, 0.0});
+        assert_true(slow.stick == 1.0 && fabs(slow.friction - 0.5) < tolerance); /* it sticks, and bears its own */
+    }
+}
+
+/* Soil that was sheared as fast as it moves and still bears less than friction allows yields: no part of its motion is
+ * slip. From a tenth below the limit on it may be as strong as that, and slips. */
+static void soil_that_yields_below_the_limit_of_friction_does_not_slip(void **state)
+{
+    const double tolerance = 1e-9; /* rounding */
+    (void)state;
+    for (int dimension = 2; dimension <= 3; ++dimension) {
+        const met_along weak = move_along(dimension, &(motion_along){0.6, 1e3, 0.5});
+        assert_true(weak.stick == 1.0 && fabs(weak.friction - 0.6) < tolerance);
+        const met_along strong = move_along(dimension, &(motion_along){0.999, 1e3, 0.5});
+        assert_true(strong.stick < 0.1 && fabs(strong.friction - 1.0) < tolerance);
+        const met_along against = move_along(dimension, &(motion_along){0.6, 1e3, -0.5});
+        assert_true(against.stick < 0.1 && fabs(against.friction - 1.0) < tolerance);
     }
 }
 
@@ -485,7 +542,9 @@ int main(void)
         cmocka_unit_test(force_on_the_wall_is_minus_that_on_the_soil),
         cmocka_unit_test(walls_add_to_what_is_there_and_any_number_of_threads_agrees),
         cmocka_unit_test(rebuilding_a_wall_allocates_only_for_more_soil),
-        cmocka_unit_test(first_layer_slips_and_soil_above_it_where_it_is_weak),
+        cmocka_unit_test(soil_that_bears_the_limit_of_friction_slips_without_shear),
+        cmocka_unit_test(sliding_loads_soil_up_to_the_limit_of_friction),
+        cmocka_unit_test(soil_that_yields_below_the_limit_of_friction_does_not_slip),
     };
     return CLOUD_RUN(tests);
 }
