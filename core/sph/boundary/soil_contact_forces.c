@@ -175,8 +175,8 @@ typedef struct mirrored {
  * is slip, (W3a). A step may shear the soil until its traction is the limit of friction, as soil does that sticks, and
  * as fast as it was sheared in the last step if its traction has stayed below the limit: it yields there, before it
  * slips. All slip shears no soil: it would bear its strength, in place of the friction that acts on it.
- * used: own traction over the limit, 1; slip: motion along the boundary, m/s; limit: of friction, m/s2; area:
- * acceleration by a unit of traction, 1/(m kg/m3) */
+ * used: own traction against the motion over the limit, 1; slip: motion along the boundary, m/s; limit: of friction,
+ * m/s2; area: acceleration by a unit of traction, 1/(m kg/m3) */
 static double find_stick(const boundary_terms *p, const double *record, const double *normal, double used,
                          const double *slip, double limit, double area)
 {
@@ -293,7 +293,8 @@ static double find_friction(const boundary_terms *p, const double *record, const
                             double *slip, double *tangential)
 {
     const double area = 2.0 * mor_vector_length(p->gradient) / record[MOR_RECORD_DENSITY];
-    const double used = limit > 0.0 ? mor_vector_length(tangential) / limit : INFINITY;
+    const double resists = -mor_vector_dot(tangential, slip);
+    const double used = !(limit > 0.0) ? INFINITY : resists != 0.0 ? resists / (limit * mor_vector_length(slip)) : 0.0;
     const double held = limit_friction(record, limit, area, tangential);
     if (p->coulomb_pulls) {
         return held;

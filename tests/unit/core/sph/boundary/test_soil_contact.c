@@ -427,7 +427,7 @@ static void rebuilding_a_wall_allocates_only_for_more_soil(void **state)
 
 /* A particle half a spacing above a floor that only presses, and how it moves along it. */
 typedef struct motion_along {
-    double own;   /* traction over the limit of friction, 1 */
+    double own;   /* traction against the motion over the limit of friction, 1 */
     double speed; /* over that of a wave as large as that limit, 1 */
     double rate;  /* of shear in the last step, over what all of the motion mirrored would shear, 1 */
 } motion_along;
@@ -497,8 +497,8 @@ static void sliding_loads_soil_up_to_the_limit_of_friction(void **state)
     const double tolerance = 1e-9; /* rounding */
     (void)state;
     for (int dimension = 2; dimension <= 3; ++dimension) {
-        for (int k = 0; k < 3; ++k) {
-            const double own = 0.45 * k;
+        for (int k = -1; k < 3; ++k) {
+            const double own = 0.45 * k; /* negative: the traction drives the soil on, and is turned first */
             const met_along met = move_along(dimension, &(motion_along){own, 1e3, 0.0});
             assert_true(met.stick < 0.1 && fabs(own + met.load - 1.0) < tolerance);
             assert_true(fabs(met.friction - 1.0) < tolerance);
