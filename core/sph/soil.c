@@ -162,8 +162,8 @@ static const mor_stage soil_stages[] = {
     {"stand", mor_soil_put_back, SHARED(LISTS), 0, STANDING | SHARED(STATE),
      "puts soil back that is not released, where it was computed beside other soil", mor_soil_may_hold},
     {"energy of stress", mor_soil_audit_stress,
-     SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | BIT(MASS) | BIT(DENSITY) | BIT(VELOCITY) |
-         BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
+     SHARED(RECORDS) | SHARED(REGULARIZATION) | SHARED(STATE) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | BIT(MASS) |
+         BIT(DENSITY) | BIT(VELOCITY) | BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(STRESS),
      0, SHARED(ENERGY_SUMS), "energy dissipated by the stress update, at an interval, when a probe needs it",
      has_audit},
     {"outflow", mor_soil_remove_outflow,
@@ -495,7 +495,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += n_tensors * padded * 6.0 * sizeof(double);
     bytes += (double)soil->tree.n_clusters * sizeof *soil->at_wall;
     bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
-    bytes += soil->energy != NULL ? n * 17.0 * sizeof(double) : 0.0;
+    bytes += soil->energy != NULL ? n * 5.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
     bytes += soil->settings.scheme.precision != 1
                  ? 0.0

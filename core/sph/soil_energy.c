@@ -29,7 +29,6 @@ mor_status mor_soil_watch_energy(mor_context *context, mor_soil *soil)
     MOR_TRY(context, MOR_NEW(context, &soil->energy, 1, "audit of energy"));
     MOR_TRY(context, MOR_NEW(context, &soil->energy->scratch, MOR_PAIR_POWERS * n, "audit of energy"));
     soil->energy->find_powers = mor_pair_audit_select(NULL);
-    MOR_TRY(context, MOR_NEW(context, &soil->energy->strains, 12 * n, "audit of energy"));
     MOR_TRY(context, MOR_NEW(context, &soil->energy->restored, n, "audit of energy"));
     return MOR_NEW(context, &soil->energy->block_sums, mor_block_count(n) * PARTS, "blocks of the audit of energy");
 }
@@ -39,7 +38,6 @@ void mor_soil_clear_energy(mor_context *context, mor_soil *soil)
     if (soil->energy != NULL) {
         MOR_FREE(context, &soil->energy->block_sums);
         MOR_FREE(context, &soil->energy->restored);
-        MOR_FREE(context, &soil->energy->strains);
         MOR_FREE(context, &soil->energy->scratch);
         MOR_FREE(context, &soil->energy);
     }
@@ -78,18 +76,23 @@ void mor_soil_energy_add(mor_context *context, mor_soil_powers *job, mor_reduce_
     mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SUM, PARTS, block, job, energy->block_sums, energy->fresh);
 }
 
+void mor_soil_audit_boundaries(mor_context *context, const mor_soil_powers *job, mor_soil_boundary_audit audit)
+{
+    mor_soil *soil = job->soil;
+    double *powers = soil->energy->scratch;
+    const mor_contact_audit all = {job->records, job->region,       job->velocity,         job->acceleration,
+                                   job->stress,  job->step->length, soil->set.n_particles, powers};
+    memset(powers, 0, MOR_CONTACT_POWERS * (size_t)all.n_particles * sizeof *powers);
+    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
+        audit(context, mor_soil_contact_at(soil, k), &all);
+    }
+}
+
 double mor_soil_stress_power(const double *stress, const double *gradient)
 {
     const double *l = gradient;
     return stress[MOR_XX] * l[0] + stress[MOR_YY] * l[4] + stress[MOR_ZZ] * l[8] + stress[MOR_XY] * (l[1] + l[3]) +
            stress[MOR_YZ] * (l[5] + l[7]) + stress[MOR_ZX] * (l[2] + l[6]);
-}
-
-/* Inner product of two symmetric tensors. */
-static double double_dot(const double *a, const double *b)
-{
-    return a[MOR_XX] * b[MOR_XX] + a[MOR_YY] * b[MOR_YY] + a[MOR_ZZ] * b[MOR_ZZ] +
-           2.0 * (a[MOR_XY] * b[MOR_XY] + a[MOR_YZ] * b[MOR_YZ] + a[MOR_ZX] * b[MOR_ZX]);
 }
 
 /* Stored energy of n stresses by the material, J/m3; NaN when it has no energy operation. */
@@ -134,7 +137,7 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
     for (int64_t i = 0; i < n; ++i) {
         const double volume = job->records[(first + i) * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];
         const double work = mor_soil_stress_power(middle + 6 * i, job->velocity_gradient + 9 * (first + i));
-        const double *strains = job->soil->energy->strains + 12 * (first + i);
+        const double *strained = job->soil->energy->scratch + MOR_CONTACT_POWERS * (first + i); /* by boundaries */
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
         const double restored =
             mor_symmetric_trace(middle + 6 * i) / 3.0 * job->soil->energy->restored[first + i] / length;
@@ -142,12 +145,10 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
             volume * (work + restored + spread - (stored[END][i] - stored[START][i]) / length);
         sums[MOR_SOIL_ENERGY_CORRECTION] -= volume * restored;
         sums[MOR_SOIL_ENERGY_DIFFUSION] -= volume * spread;
-        sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * double_dot(middle + 6 * i, strains);
-        sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * double_dot(middle + 6 * i, strains + 6);
-        if (is_corrected) {
-            const double boundary = double_dot(middle + 6 * i, strains) + double_dot(middle + 6 * i, strains + 6);
-            sums[MOR_SOIL_ENERGY_CORRECTION] += volume * (boundary - work);
-        }
+        sums[MOR_SOIL_ENERGY_BOUNDARY] -= volume * strained[MOR_CONTACT_STUCK];
+        sums[MOR_SOIL_ENERGY_PASSED_ON] -= volume * strained[MOR_CONTACT_SLIPPED];
+        sums[MOR_SOIL_ENERGY_CORRECTION] +=
+            is_corrected ? volume * (strained[MOR_CONTACT_STUCK] + strained[MOR_CONTACT_SLIPPED] - work) : 0.0;
     }
 }
 
@@ -282,6 +283,7 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *vi
     mor_soil_powers job = {.soil = soil,
                            .step = step,
                            .records = soil->records,
+                           .region = mor_soil_read_region(soil, view),
                            .mass = mor_view_read(view, MOR_FIELD_MASS),
                            .density = mor_view_read(view, MOR_FIELD_DENSITY),
                            .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
@@ -290,7 +292,10 @@ mor_status mor_soil_audit_stress(mor_context *context, void *owner, mor_view *vi
                            .stress_diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION)};
     mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
     mor_view_read_shared(view, MOR_RESOURCE_REGULARIZATION, soil->regularization);
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, soil->walls);
+    mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, job.state);
+    mor_soil_audit_boundaries(context, &job, mor_soil_contact_audit_strain);
     mor_soil_energy_add(context, &job, find_stress_block);
     integrate(energy, step, mor_soil_diffusion_interval(soil), soil->set.n_particles);
     return mor_checked_report(context, soil->material, soil->set.name, step->time + step->length);

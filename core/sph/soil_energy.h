@@ -54,8 +54,6 @@ typedef struct mor_soil_energy {
     int64_t next;                            /* number of the step of the next sample */
     double fresh[MOR_SOIL_ENERGY_PARTS];     /* powers of the present step, W (W/m) */
     double *scratch;                         /* shape [n_particles, MOR_PAIR_POWERS]; powers, W (W/m) */
-    double *strains;                         /* shape [n_particles, 2, 6]; strain rates by boundaries that stick and by
-                                          * those that slip, 1/s */
     double *restored;                /* shape [n_particles]; volumetric strain restored to laws in the step, 1 */
     mor_pair_audit_loop find_powers; /* of the pair forces */
     double *block_sums;              /* shape [blocks, MOR_SOIL_ENERGY_PARTS]; partial results, any unit */
@@ -63,7 +61,7 @@ typedef struct mor_soil_energy {
 
 /** Switches the audit of a soil on.
  *  @param soil    [in,out]  before its first step
- *  Returns: MOR_OK, also when it is on; MOR_ERROR_MEMORY. Cost: allocates 136 bytes per particle; a few percent of a
+ *  Returns: MOR_OK, also when it is on; MOR_ERROR_MEMORY. Cost: allocates 40 bytes per particle; a few percent of a
  *  run. */
 mor_status mor_soil_watch_energy(mor_context *context, struct mor_soil *soil);
 

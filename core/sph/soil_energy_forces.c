@@ -9,76 +9,12 @@
 
 #include <string.h>
 
-/* What a particle's boundaries take, kept in the scratch: W (W/m). */
-enum { LOST, GIVEN, GRAIN = MOR_CONTACT_GRAIN };
-
 /* Velocity in the middle of the kick: with it force times velocity is the change of kinetic energy exactly, and that of
  * gravity the change of potential energy. */
 static void find_middle_velocity(const mor_soil_powers *job, int64_t i, double *velocity)
 {
     for (int64_t a = 0; a < 3; ++a) {
         velocity[a] = job->velocity[3 * i + a] - 0.5 * job->step->length * job->acceleration[3 * i + a];
-    }
-}
-
-/* Adds the strain rate by a mirrored velocity, of which difference is the part that counts; symmetric. */
-static void add_strain(const double *difference, const double *gradient, double *strain)
-{
-    for (int a = 0; a < 3; ++a) {
-        const int b = (a + 1) % 3;
-        strain[a] -= 2.0 * difference[a] * gradient[a];
-        strain[3 + a] -= difference[a] * gradient[b] + difference[b] * gradient[a];
-    }
-}
-
-/* (E7) for one particle and one patch: force times velocity, and the strain rates that the mirrored velocity gave, as
- * in the boundary gradient. Where the boundary slips it is friction that strains along it. */
-static void audit_lane(const mor_soil_contact *contact, mor_wall_friction friction, int64_t lane, const double *record,
-                       const double *middle, double *taken, double *strains)
-{
-    const double *velocity = mor_soil_contact_velocity(contact, lane);
-    const double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
-    const double length2 = mor_vector_dot(gradient, gradient);
-    const double mass = record[MOR_RECORD_VOLUME] * record[MOR_RECORD_DENSITY];
-    const double stick = contact->stick[lane];
-    const bool slips = friction == MOR_WALL_COULOMB && stick < 1.0;
-    double relative[3];
-    double across[3];
-    double along[3];
-    for (int a = 0; a < 3; ++a) {
-        relative[a] = record[MOR_RECORD_VELOCITY + a] - velocity[a];
-    }
-    const double normal = length2 > 0.0 ? mor_vector_dot(relative, gradient) / length2 : 0.0;
-    for (int a = 0; a < 3; ++a) {
-        double force = mass * contact->acceleration[3 * lane + a];
-        force += contact->barrier.is_on ? contact->repulsion[3 * lane + a] : 0.0;
-        across[a] = normal * gradient[a];
-        along[a] = stick * (relative[a] - across[a]);
-        across[a] *= contact->closure[lane];
-        taken[LOST] -= force * (contact->is_wall ? middle[a] - velocity[a] : middle[a]);
-        taken[GIVEN] -= contact->is_wall ? force * velocity[a] : 0.0;
-    }
-    add_strain(across, gradient, strains);
-    add_strain(along, gradient, slips ? strains + 6 : strains);
-}
-
-/* Adds what a boundary takes to the particles that see it, slot by slot in fixed order. */
-static void audit_contact(mor_context *context, const mor_soil_powers *job, const mor_soil_contact *contact)
-{
-    const mor_soil_energy *energy = job->soil->energy;
-    const int64_t n = job->soil->set.n_particles;
-    MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
-        for (int64_t slot = contact->first_slot[place]; slot < contact->first_slot[place + 1]; ++slot) {
-            const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
-            const mor_boundary_patch *patch = &contact->boundary->patches[contact->slots[slot].patch];
-            for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n); ++k) {
-                double middle[3];
-                find_middle_velocity(job, first + k, middle);
-                const mor_boundary_friction law = mor_soil_contact_friction(patch, job->region, first + k);
-                audit_lane(contact, law.kind, slot * MOR_CLUSTER + k, job->records + (first + k) * MOR_RECORD_SIZE,
-                           middle, energy->scratch + 3 * (first + k), energy->strains + 12 * (first + k));
-            }
-        }
     }
 }
 
@@ -123,7 +59,7 @@ static void find_motion_block(void *powers, int64_t first, int64_t last, double 
     const double damping = is_damped ? s->scheme.damping : 0.0;
     const double local = is_damped ? s->scheme.local_damping : 0.0;
     for (int64_t i = first; i < last; ++i) {
-        const double *taken = soil->energy->scratch + 3 * i;
+        const double *taken = soil->energy->scratch + MOR_CONTACT_POWERS * i;
         const double *record = job->records + i * MOR_RECORD_SIZE;
         const double mass = job->mass[i];
         double middle[3];
@@ -136,8 +72,8 @@ static void find_motion_block(void *powers, int64_t first, int64_t last, double 
             sums[MOR_SOIL_ENERGY_DAMPING] += damping * mass * before * middle[a];
             sums[MOR_SOIL_ENERGY_RAMP] += mass * (s->gravity[a] - soil->gravity[a]) * middle[a];
         }
-        sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[LOST];
-        sums[MOR_SOIL_ENERGY_DRIVEN] += taken[GIVEN];
+        sums[MOR_SOIL_ENERGY_BOUNDARY] += taken[MOR_CONTACT_LOST];
+        sums[MOR_SOIL_ENERGY_DRIVEN] += taken[MOR_CONTACT_GIVEN];
     }
 }
 
@@ -210,10 +146,8 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
     if (!mor_soil_energy_is_due(soil, step)) {
         return MOR_OK;
     }
-    const size_t n = (size_t)soil->set.n_particles;
     mor_soil_energy *energy = mor_view_write_shared(view, MOR_RESOURCE_ENERGY_SUMS, soil->energy);
     mor_soil_powers job = {.soil = soil,
-                           .region = mor_soil_read_region(soil, view),
                            .step = step,
                            .records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records),
                            .mass = mor_view_read(view, MOR_FIELD_MASS),
@@ -223,11 +157,7 @@ mor_status mor_soil_audit_forces(mor_context *context, void *owner, mor_view *vi
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
     mor_view_read_shared(view, MOR_RESOURCE_BOUNDARIES, soil->walls);
     memset(energy->fresh, 0, sizeof energy->fresh);
-    memset(energy->scratch, 0, 3 * n * sizeof *energy->scratch);
-    memset(energy->strains, 0, 12 * n * sizeof *energy->strains);
-    for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
-        audit_contact(context, &job, mor_soil_contact_at(soil, k));
-    }
+    mor_soil_audit_boundaries(context, &job, mor_soil_contact_audit_forces);
     mor_soil_energy_add(context, &job, find_motion_block);
     for (int k = 0; k < soil->n_boundaries; ++k) {
         audit_rocks(soil, soil->boundaries[k].boundary);

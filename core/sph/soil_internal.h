@@ -203,9 +203,11 @@ double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
 /** What soil that is not released keeps, beside its state: its fields, one after the other. */
 #define MOR_SOIL_STANDING(FIELD)                                                                                       \
     FIELD(POSITION)                                                                                                    \
-    FIELD(VELOCITY) FIELD(DENSITY) FIELD(DENSITY_RATE) FIELD(STRESS) FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) \
-        FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE)       \
-            FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
+    FIELD(VELOCITY)                                                                                                    \
+    FIELD(DENSITY)                                                                                                     \
+    FIELD(DENSITY_RATE) FIELD(STRESS) FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS)               \
+        FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH)     \
+            FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
 
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)
@@ -271,6 +273,15 @@ typedef struct mor_soil_powers {
  *  @param block   [in]      finds those of a block, shape [MOR_SOIL_ENERGY_PARTS], unit W (W/m); job is its first
  *                           argument */
 void mor_soil_energy_add(mor_context *context, mor_soil_powers *job, mor_reduce_block block);
+
+/** What the audit asks of a boundary, mor_soil_contact_audit_... */
+typedef void (*mor_soil_boundary_audit)(mor_context *context, const mor_soil_contact *contact,
+                                        const mor_contact_audit *audit);
+
+/** Fills the scratch of the audit with the powers of all boundaries, shape [n, MOR_CONTACT_POWERS].
+ *  @param job   [in]  of a soil with an audit
+ *  @param audit [in]  what to ask of each */
+void mor_soil_audit_boundaries(mor_context *context, const mor_soil_powers *job, mor_soil_boundary_audit audit);
 
 /** Whether there is an audit and a step is one of its samples. */
 bool mor_soil_energy_is_due(const mor_soil *soil, const mor_step *step);

@@ -118,6 +118,24 @@ typedef struct mor_contact_corner {
     bool is_limited; /* friction limits all that acts along some face, and each keeps the force along its own normals */
 } mor_contact_corner;
 
+/** Powers of a particle in the audit of energy: what the forces of boundaries take, W (W/m). */
+enum { MOR_CONTACT_LOST /* from its motion */, MOR_CONTACT_GIVEN /* to walls that move */, MOR_CONTACT_POWERS };
+
+/** Powers of its stress on the strain rates by boundaries, W/m3. */
+enum { MOR_CONTACT_STUCK /* by those that stick */, MOR_CONTACT_SLIPPED /* by those that slip */ };
+
+/** What the audit of energy asks of boundaries. Everything is borrowed. */
+typedef struct mor_contact_audit {
+    const double *records;      /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
+    const double *region;       /* shape [n_particles], number of the region a particle is of, 1; NULL: one region */
+    const double *velocity;     /* shape [n_particles, 3]; after the kick, m/s */
+    const double *acceleration; /* shape [n_particles, 3]; in the kick, m/s2 */
+    const double *stress;       /* shape [n_particles, 6]; at the end of the step, Pa; for the strain */
+    double length;              /* of the step, s */
+    int64_t n_particles;
+    double *powers; /* shape [n_particles, MOR_CONTACT_POWERS]; units of the enums */
+} mor_contact_audit;
+
 /** One boundary and its relation to the soil. Owner: the soil solver. */
 typedef struct mor_soil_contact {
     char name[MOR_FIELD_NAME_BYTES];
@@ -359,6 +377,18 @@ void mor_soil_contact_update_velocity(mor_context *context, mor_soil_contact *co
 void mor_soil_contact_sum_divergence(mor_context *context, mor_soil_contact *contact, const mor_pair_table *table,
                                      const mor_pair_constants *constants, const double *records,
                                      const mor_relation *inner, const mor_pair_singles *singles);
+
+/** Adds what the forces of a boundary take from the motion of each particle, and give to a wall, (E7).
+ *  @param contact [in]      forces must be current
+ *  @param audit   [in,out]  powers are added to */
+void mor_soil_contact_audit_forces(mor_context *context, const mor_soil_contact *contact,
+                                   const mor_contact_audit *audit);
+
+/** Adds the power of the stress in the middle of the step on the strain rates by a boundary, (E7).
+ *  @param contact [in]      sums, stick and closure must be those of the step
+ *  @param audit   [in,out]  powers are added to */
+void mor_soil_contact_audit_strain(mor_context *context, const mor_soil_contact *contact,
+                                   const mor_contact_audit *audit);
 
 /** Adds the boundary's part of the acceleration and sets stick and closure, and force and moment of the patches.
  *  @param contact      [in,out]  sums must be current
