@@ -200,6 +200,14 @@ static bool keep_larger(double *peaks, int value_at, int time_at, double value, 
     return is_larger;
 }
 
+/* Keeps the value of the larger size, with its sign, and when it was. */
+static void keep_farther(double *peaks, int value_at, int time_at, double value, double time)
+{
+    const bool is_farther = isfinite(value) && !(fabs(value) <= fabs(peaks[value_at]));
+    peaks[value_at] = is_farther ? value : peaks[value_at];
+    peaks[time_at] = is_farther ? time : peaks[time_at];
+}
+
 static void keep_peaks(mor_gauge *gauge, double time)
 {
     double *peaks = gauge->numbers + MOR_GAUGE_PEAK;
@@ -210,7 +218,7 @@ static void keep_peaks(mor_gauge *gauge, double time)
     mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &filtered);
     keep_larger(peaks, MOR_GAUGE_PEAK_SINGLE, MOR_GAUGE_PEAK_SINGLE_TIME, single.normal, time);
     keep_larger(peaks, MOR_GAUGE_PEAK_SHEAR, MOR_GAUGE_PEAK_SHEAR_TIME, filtered.shear, time);
-    keep_larger(peaks, MOR_GAUGE_PEAK_MOMENT, MOR_GAUGE_PEAK_MOMENT_TIME, filtered.moment, time);
+    keep_farther(peaks, MOR_GAUGE_PEAK_MOMENT, MOR_GAUGE_PEAK_MOMENT_TIME, filtered.moment, time);
     if (keep_larger(peaks, MOR_GAUGE_PEAK_NORMAL, MOR_GAUGE_PEAK_TIME, filtered.normal, time)) {
         peaks[MOR_GAUGE_PEAK_SOIL] = filtered.of_source[MOR_GAUGE_SOIL];
         peaks[MOR_GAUGE_PEAK_BODIES] = filtered.of_source[MOR_GAUGE_BODIES];

@@ -41,7 +41,7 @@ enum {
     MOR_GAUGE_PEAK_HEIGHT,      /* height of action then, m */
     MOR_GAUGE_PEAK_SHEAR,       /* of the filtered shear force, N */
     MOR_GAUGE_PEAK_SHEAR_TIME,  /* s */
-    MOR_GAUGE_PEAK_MOMENT,      /* of the filtered overturning moment, N m */
+    MOR_GAUGE_PEAK_MOMENT,      /* of the filtered overturning moment, the largest to either side, N m */
     MOR_GAUGE_PEAK_MOMENT_TIME, /* s */
     MOR_GAUGE_PEAK_SINGLE,      /* of the normal force of single steps, N */
     MOR_GAUGE_PEAK_SINGLE_TIME, /* s */

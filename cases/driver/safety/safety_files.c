@@ -258,6 +258,10 @@ void mor_safety_print(const mor_safety *it, FILE *out)
             it->band.n_undecided > 0 ? " (largest that is stable to smallest that fails; %d undecided between)\n"
                                      : " (largest that is stable to smallest that fails)\n",
             it->band.n_undecided);
+    if (it->is_stopped) {
+        fprintf(out, "the search was stopped: the band is that of its %d trials so far; run it again for the whole\n",
+                it->n_trials);
+    }
     if (it->band.is_contradicted) {
         fprintf(out, "the verdicts do not follow the factor: a trial stands above one that does not; see trials.csv\n");
     }

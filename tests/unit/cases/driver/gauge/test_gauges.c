@@ -214,6 +214,24 @@ static void maps_hold_the_whole_force(void **state)
     scene_free(it);
 }
 
+/* A gauge told the other direction has the same moment about the other axis, also at its peak: a peak is the largest to
+ * either side. */
+static void peak_of_the_moment_turns_its_sign_with_the_direction(void **state)
+{
+    static const char *const reversed[] = {"gauges[1].direction=(-1, 0, 0)", NULL};
+    (void)state;
+    double peaks[2][2];
+    for (int k = 0; k < 2; ++k) {
+        scene *it = build(k == 0 ? NULL : reversed, 1);
+        const double *numbers = it->simulation.probes->gauges.of[1].numbers + MOR_GAUGE_PEAK;
+        peaks[k][0] = numbers[MOR_GAUGE_PEAK_MOMENT];
+        peaks[k][1] = numbers[MOR_GAUGE_PEAK_MOMENT_TIME];
+        scene_free(it);
+    }
+    assert_true(fabs(peaks[0][0]) > 1.0);                                   /* N m; there is something to compare */
+    assert_true(peaks[0][0] == -peaks[1][0] && peaks[0][1] == peaks[1][1]); /* exact: signs alone */
+}
+
 static void impulse_of_contact_is_what_the_ball_lost(void **state)
 {
     (void)state;
@@ -255,6 +273,7 @@ int main(void)
         cmocka_unit_test(moments_are_taken_on_the_surface),
         cmocka_unit_test(maps_hold_the_whole_force),
         cmocka_unit_test(maps_of_bodies_have_no_cells_beside_them),
+        cmocka_unit_test(peak_of_the_moment_turns_its_sign_with_the_direction),
         cmocka_unit_test(impulse_of_contact_is_what_the_ball_lost),
         cmocka_unit_test(numbers_do_not_depend_on_threads_and_change_no_state),
     };

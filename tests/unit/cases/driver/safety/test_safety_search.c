@@ -1,12 +1,16 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 /* The search on slopes that are nothing but two thresholds: stable up to one, failing from the other on. */
+#include "cases/driver/safety/safety.h"
+#include "cases/driver/safety/safety_files.h"
 #include "cases/driver/safety/safety_search.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -99,6 +103,22 @@ static void verdicts_that_contradict_the_factor_are_told_and_the_band_is_cautiou
     assert_true(band.stable == 0.5 && band.fails == 2.0); /* exact: the widest that all verdicts allow */
 }
 
+/* The band of a part of the trials is wider than that asked for. */
+static void a_search_that_was_stopped_says_so(void **state)
+{
+    (void)state;
+    for (int is_stopped = 0; is_stopped < 2; ++is_stopped) {
+        char text[1024] = "";
+        const mor_safety it = {.n_trials = 3, .is_stopped = is_stopped != 0, .band = {.stable = 1.0, .fails = 2.0}};
+        FILE *out = fmemopen(text, sizeof text, "w");
+        assert_non_null(out);
+        mor_safety_print(&it, out);
+        fclose(out);
+        assert_non_null(strstr(text, "factor of safety: 1 to 2"));
+        assert_int_equal(strstr(text, "stopped: the band is that of its 3 trials so far") != NULL, is_stopped);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -108,6 +128,7 @@ int main(void)
         cmocka_unit_test(an_upper_factor_that_stands_is_passed),
         cmocka_unit_test(a_start_that_does_not_stand_ends_the_search),
         cmocka_unit_test(verdicts_that_contradict_the_factor_are_told_and_the_band_is_cautious),
+        cmocka_unit_test(a_search_that_was_stopped_says_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
