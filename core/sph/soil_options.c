@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Stages a case may switch on: density by summation, kernel-gradient correction, strain rates for reconstruction, XSPH
+/* Stages a case may switch on: density by summation, kernel-gradient correction, strain rates for the next step, XSPH
  * and shifting; and the kernel sums of the first two. */
 #include "core/sph/soil_internal.h"
 

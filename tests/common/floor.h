@@ -107,13 +107,14 @@ static inline double *floor_record(floor_case *f)
 static inline mor_contact_soil floor_soil(const floor_case *f, mor_dissipation dissipation)
 {
     static const double rest[6 * ASSEMBLY_MAX];
-    return (mor_contact_soil){.coulomb_pulls = !f->presses_only,
-                              .dissipation = dissipation,
-                              .limiter_rate = f->soil.constants.limiter_rate,
-                              .records = f->soil.records,
-                              .strain_rate = f->presses_only ? rest : NULL,
-                              .length = f->presses_only ? 1.0 : 0.0, /* soil that moves along a face slips in it */
-                              .n_particles = f->soil.n};
+    return (mor_contact_soil){
+        .coulomb_pulls = !f->presses_only,
+        .dissipation = dissipation,
+        .limiter_rate = f->soil.constants.limiter_rate,
+        .records = f->soil.records,
+        .strain_rate = f->presses_only ? rest : NULL,
+        .length = f->presses_only ? 1.0 : 0.0, /* so long that what sticks in it may load next to nothing */
+        .n_particles = f->soil.n};
 }
 
 /** Gives the first particle a stress with a normal and a shear traction on the floor, Pa; other components are not

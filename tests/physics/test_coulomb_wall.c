@@ -135,7 +135,7 @@ static void strong_block_slides_by_the_law_on_a_floor_that_only_presses(void **s
         const double found = find_coefficient(slide_with_friction(schemes[0], strong, coefficients[k]));
         print_message("strong block, coefficient %.1f: slides as with %.4f\n", coefficients[k], found);
         scene_expect_near("coefficient", found, coefficients[k],
-                          0.02); /* a tenth above what is found: it lands again, rattling */
+                          0.015); /* it lands again, rattling, and chance decides the third digit */
     }
     const double sticky = find_coefficient(slide_with_friction(schemes[0], held, 0.3));
     print_message("coefficient 0.3: slides as with %.4f where tension is held\n", sticky);
@@ -182,8 +182,8 @@ static void coulomb_floor_stronger_than_the_soil_is_rough(void **state)
 /* A periodic layer of soil whose strength is a multiple of the friction of its floor, at 15 degrees. */
 static const char layer_in_plane[] =
     "dimension = 2; spacing = '0.2 m'; end = '1 s'; gravity = ('2.5390 m/s2', '-9.4757 m/s2');"
-    "domain = { min = ('0 m', '-1 m'); max = ('2 m', '6 m'); periodic = 'x'; };"
-    "soil = ( { name = 'layer'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('2 m', '4 m'); };"
+    "domain = { min = ('0 m', '-1 m'); max = ('4 m', '6 m'); periodic = 'x'; };"
+    "soil = ( { name = 'layer'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('4 m', '4 m'); };"
     "  material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '20 MPa'; poissons_ratio = 0.3;"
     "    friction_angle = '30 deg'; cohesion = '5 kPa'; }; initial_stress = { type = 'k0'; }; } );"
     "walls = ( { name = 'floor'; friction = 'coulomb'; friction_coefficient = 0.2;"
@@ -194,11 +194,11 @@ static const char layer_in_plane[] =
     "  { name = 'along'; type = 'wall_force'; wall = 'floor'; direction = (1, 0); },"
     "  { name = 'across'; type = 'wall_force'; wall = 'floor'; direction = (0, -1); },"
     "  { name = 'row_1'; type = 'soil_velocity'; direction = (1, 0);"
-    "    region = { type = 'box'; min = ('0 m', '0 m'); max = ('2 m', '0.2 m'); }; },"
+    "    region = { type = 'box'; min = ('0 m', '0 m'); max = ('4 m', '0.2 m'); }; },"
     "  { name = 'row_2'; type = 'soil_velocity'; direction = (1, 0);"
-    "    region = { type = 'box'; min = ('0 m', '0.2 m'); max = ('2 m', '0.4 m'); }; },"
+    "    region = { type = 'box'; min = ('0 m', '0.2 m'); max = ('4 m', '0.4 m'); }; },"
     "  { name = 'row_3'; type = 'soil_velocity'; direction = (1, 0);"
-    "    region = { type = 'box'; min = ('0 m', '0.4 m'); max = ('2 m', '0.6 m'); }; } );";
+    "    region = { type = 'box'; min = ('0 m', '0.4 m'); max = ('4 m', '0.6 m'); }; } );";
 
 /* The same in space, 2 m high. */
 static const char layer_in_space[] =
@@ -224,11 +224,10 @@ static const char layer_in_space[] =
 
 /* What slips shears no soil: a layer that is stronger than its floor slides as a block, against the coefficient times
  * its weight, and yields nowhere. Its rows moved at 1.25, 0.40 and 0.93 m/s while a part of the slip was mirrored. */
-static void expect_layer_that_slides_as_a_block(const char *text, const char *friction, double coefficient)
+static void expect_layer_that_slides_as_a_block(const char *text, const char *const *settings, double coefficient)
 {
     static const double along = 2.5390;  /* gravity, m/s2 */
     static const double across = 9.4757; /* m/s2 */
-    const char *const settings[] = {friction, NULL};
     const scene_request request = {text, (const char *const *[]){settings}, 1, 1};
     scene *it = scene_new(&request);
     const double start = scene_probe(it, "center_of_mass");
@@ -254,7 +253,7 @@ static void expect_layer_that_slides_as_a_block(const char *text, const char *fr
     scene_expect_near("friction", along_sum / across_sum, coefficient, 0.002); /* weight swings on the soil */
     scene_expect_near("speed", speed, wanted, 0.05); /* m/s; friction takes a tenth of a second to build up */
     for (int k = 0; k < 2; ++k) {
-        scene_expect_near("step between rows", steps[k], 0.0, 0.02); /* m/s; the layer swings in shear */
+        scene_expect_near("step between rows", steps[k], 0.0, 0.02); /* m/s; it swings in shear: 0.006 found */
     }
     scene_expect_near("dissipation over the work of friction", scene_probe(it, "boundary_dissipation") / work, 1.0,
                       0.05); /* the base moves less than the center by the shear of the layer */
@@ -266,9 +265,50 @@ static void expect_layer_that_slides_as_a_block(const char *text, const char *fr
 static void layer_stronger_than_its_floor_slides_as_a_block(void **state)
 {
     (void)state;
-    expect_layer_that_slides_as_a_block(layer_in_plane, "walls[0].friction_coefficient=0.1", 0.1);
-    expect_layer_that_slides_as_a_block(layer_in_plane, "walls[0].friction_coefficient=0.2", 0.2);
-    expect_layer_that_slides_as_a_block(layer_in_space, "walls[0].friction_coefficient=0.2", 0.2);
+    static const char *const as_given[] = {NULL};
+    static const char *const less[] = {"walls[0].friction_coefficient=0.1", NULL};
+    static const char *const stiff_in_shear[] = {"soil[0].material.poissons_ratio=0", NULL}; /* loaded too much, once */
+    expect_layer_that_slides_as_a_block(layer_in_plane, less, 0.1);
+    expect_layer_that_slides_as_a_block(layer_in_plane, as_given, 0.2);
+    expect_layer_that_slides_as_a_block(layer_in_plane, stiff_in_shear, 0.2);
+    expect_layer_that_slides_as_a_block(layer_in_space, as_given, 0.2);
+}
+
+/* A strong block, 8 m by 2 m, on a flat body that is held. The stress of soil is continued into bodies across their
+ * faces, too, and friction limits that as well: the first row is a little fast, which is not understood. */
+static void strong_block_slides_on_a_body_nearly_as_on_a_wall(void **state)
+{
+    static const char text[] =
+        "dimension = 2; spacing = '0.2 m'; end = '1 s'; gravity = ('2.5390 m/s2', '-9.4757 m/s2');"
+        "domain = { min = ('-3 m', '-3.6 m'); max = ('20 m', '6 m'); };"
+        "soil = ( { name = 'block'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('8 m', '2 m'); };"
+        "  material = { model = 'mohr_coulomb'; density = '2000 kg/m3'; youngs_modulus = '20 MPa';"
+        "    poissons_ratio = 0.3; friction_angle = '30 deg'; cohesion = '50 kPa'; };"
+        "  initial_stress = { type = 'k0'; }; } );"
+        "bodies = ( { name = 'plate'; position = ('7 m', '-0.6 m'); motion = 'prescribed'; friction = 'coulomb';"
+        "  shape = { type = 'box'; min = ('-9 m', '-0.6 m'); max = ('9 m', '0.6 m'); };"
+        "  material = { model = 'rigid'; density = '2600 kg/m3'; }; friction_coefficient = 0.2; } );"
+        "probes = ( { type = 'momentum'; direction = (1, 0); }, { type = 'mass'; },"
+        "  { name = 'row_1'; type = 'soil_velocity'; direction = (1, 0);"
+        "    region = { type = 'box'; min = ('0 m', '0 m'); max = ('20 m', '0.2 m'); }; },"
+        "  { name = 'row_2'; type = 'soil_velocity'; direction = (1, 0);"
+        "    region = { type = 'box'; min = ('0 m', '0.2 m'); max = ('20 m', '0.4 m'); }; } );";
+    (void)state;
+    const scene_request request = {text, NULL, 0, 1};
+    scene *it = scene_new(&request);
+    scene_advance(it, 0.5);
+    const double before = scene_probe(it, "momentum") / scene_probe(it, "mass");
+    double step = 0.0;
+    for (int k = 1; k <= 20; ++k) {
+        scene_advance(it, 0.5 + 0.025 * k);
+        step += (scene_probe(it, "row_2") - scene_probe(it, "row_1")) / 20.0;
+    }
+    const double acceleration = (scene_probe(it, "momentum") / scene_probe(it, "mass") - before) / 0.5;
+    const double found = (2.5390 - acceleration) / 9.4757;
+    print_message("on a body: slides as with %.4f, step of rows %.4f m/s\n", found, step);
+    scene_expect_near("coefficient", found, 0.2, 0.01);     /* see above: twice what is found */
+    scene_expect_near("step between rows", step, 0.0, 0.1); /* m/s; likewise; 0.5 where slip sheared the soil */
+    scene_free(it);
 }
 
 int main(void)
@@ -283,6 +323,7 @@ int main(void)
         cmocka_unit_test(strong_block_leaves_a_floor_that_only_presses),
         cmocka_unit_test(coulomb_floor_stronger_than_the_soil_is_rough),
         cmocka_unit_test(layer_stronger_than_its_floor_slides_as_a_block),
+        cmocka_unit_test(strong_block_slides_on_a_body_nearly_as_on_a_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -169,12 +169,11 @@ static void sliding_block_keeps_the_energy_that_friction_leaves(void **state)
     scene_free(it);
 }
 
-/* What friction takes is what the block loses, where the friction of each grain is by its own stress. */
-static void friction_of_a_sliding_block_is_lost_at_the_floor(void **state)
+/* Lets a block slide; returns the energy that friction passes on to its stress over the work of friction by the law. */
+static double slide_block(const char *scheme)
 {
-    (void)state;
-    const char *const source[] = {"numerics.scheme=zhang2024", NULL};
-    const scene_request request = {block, (const char *const *[]){sliding, source}, 2, 1};
+    const char *const numerics[] = {scheme, NULL};
+    const scene_request request = {block, (const char *const *[]){sliding, numerics}, 2, 1};
     scene *it = scene_new(&request);
     const double mass = scene_probe(it, "mass");
     double center[2] = {0.0, 0.0};
@@ -189,15 +188,24 @@ static void friction_of_a_sliding_block_is_lost_at_the_floor(void **state)
         }
     }
     const double work = 0.2 * mass * 9.81 * (center[1] - center[0]);
-    const double passed_on = scene_probe(it, "friction_strain_energy");
+    const double passed_on = scene_probe(it, "friction_strain_energy") / work;
     /* The floor takes each grain by its own pressure and speed, the law the weight and the mean. */
     scene_expect_near("friction", scene_probe(it, "boundary_dissipation"), work, 0.05 * work);
-    /* The mirrored share is the limit over the particle's own traction, and strained by that traction it takes what the
-     * limit takes; but the traction changes much within a step. */
-    scene_expect_near("passed on", passed_on, work, 0.2 * work);
-    assert_true(scene_probe(it, "plastic_energy") > 0.0);
     scene_expect_near("balance", scene_probe(it, "energy_balance"), 1.0, share_astray);
+    print_message("%s: friction over its law %.3f, of which strains the soil %.3f\n", scheme,
+                  scene_probe(it, "boundary_dissipation") / work, passed_on);
     scene_free(it);
+    return passed_on;
+}
+
+/* What friction takes is what the block loses. Where the friction of each grain is by its own stress the mirrored share
+ * is the limit over that traction, and strained by it takes what the limit takes; but the traction changes much within
+ * a step. What slips strains nothing otherwise, but for what loads the soil as pressures change. */
+static void friction_of_a_sliding_block_is_lost_at_the_floor(void **state)
+{
+    (void)state;
+    scene_expect_near("passed on", slide_block("numerics.scheme=zhang2024"), 1.0, 0.2);
+    scene_expect_near("passed on", slide_block("numerics.scheme=moraine"), 0.0, 0.05);
 }
 
 static const char *const pushed[] = {

@@ -149,7 +149,7 @@ static void block_slides_by_the_law_of_coulomb(void **state)
     static const double coefficients[] = {0.0, 0.1, 0.2};
     for (int k = 0; k < 3; ++k) {
         const double found = find_coefficient(40.0 * degree, coefficients[k]);
-        scene_expect_near("coefficient", found, coefficients[k], 0.05); /* as of a hard block on a plane wall */
+        scene_expect_near("coefficient", found, coefficients[k], 0.01); /* ripples of the ground; the block rattles */
     }
     scene_expect_near("coefficient", find_coefficient(20.0 * degree, 0.0), 0.0, 0.005); /* bouncing of the block */
 }

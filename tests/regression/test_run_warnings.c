@@ -131,26 +131,37 @@ static void soil_that_lies_unevenly_is_warned_of_at_the_start(void **state)
     }
 }
 
-/* Friction by the traction alone, where a boundary with Coulomb friction holds soil under tension. */
+/* Friction of walls and bodies, also with single soils, where it holds soil under tension; the last word: due. */
 static void coulomb_friction_that_holds_soil_is_warned_of(void **state)
 {
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
-    static const char *const coulomb = "bodies[0].friction_coefficient=0.3";
-    static const char *const settings[][3] = {
-        {"bodies[0].friction=coulomb", coulomb, "numerics.scheme=zhang2024"},
-        {"bodies[0].friction=coulomb", coulomb, "numerics.coulomb_tension=held"},
-        {"bodies[0].friction=coulomb", coulomb, "numerics.scheme=moraine"},
-        {"bodies[0].friction=coulomb", "bodies[0].friction_coefficient=0", "numerics.scheme=zhang2024"},
-        {"bodies[0].friction=rough", "numerics.coulomb_tension=held", "numerics.scheme=zhang2024"}};
+    static const char wall[] = "walls[0].friction=coulomb";
+    static const char body[] = "bodies[0].friction=coulomb";
+    static const char source[] = "numerics.scheme=zhang2024";
+    static const struct {
+        const char *first, *second, *third;
+        int n;
+    } rows[] = {
+        {body, "bodies[0].friction_coefficient=0.3", source, 1},
+        {body, "bodies[0].friction_coefficient=0.3", "numerics.coulomb_tension=held", 1},
+        {body, "bodies[0].friction_coefficient=0.3", "numerics.scheme=moraine", 0},
+        {body, "bodies[0].friction_coefficient=0", source, 0},
+        {"bodies[0].friction=rough", "walls[0].friction=smooth", source, 0},
+        {wall, "walls[0].friction_coefficient=0.3", source, 1},
+        {"walls[0].friction=smooth",
+         "walls[0].friction_with=({soil=\"sand\"; friction=\"coulomb\"; friction_coefficient=0.3;})", source, 1},
+        {"walls[0]={name=\"floor\"; friction=\"coulomb\"; friction_coefficient=0.3; friction_with=({soil=\"sand\"; "
+         "friction=\"rough\";}); shape={type=\"half_space\"; point=(\"0 m\", \"0 m\"); normal=(0, 1);};}",
+         wall, source, 0}};
     finished_run_store_text(folder, rock_in_sand, path);
-    for (int k = 0; k < 5; ++k) {
-        const char *const arguments[] = {"explain", path,           "-s", settings[k][0], "-s", settings[k][1],
-                                         "-s",      settings[k][2], NULL};
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+        const char *const arguments[] = {"explain",      path, "-s",          rows[k].first, "-s",
+                                         rows[k].second, "-s", rows[k].third, NULL};
         program_outcome outcome = program_run(folder, arguments, 0);
         const int n = count(outcome.output, "take numerics.coulomb_tension = none") +
                       count(outcome.errors, "take numerics.coulomb_tension = none");
-        assert_int_equal(n, k < 2);
+        assert_int_equal(n, rows[k].n);
         program_clear(&outcome);
     }
 }

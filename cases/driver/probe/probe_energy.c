@@ -277,8 +277,8 @@ const mor_probe_measure mor_probe_energy_measures[] =
                "energy the soil lost to friction and impact at walls and rocks since the start"},
       .run = boundary_dissipation},
      {.type = {"friction_strain_energy", "J", "J/m", 0, 0, OF_SOIL | AUDIT, 100.0,
-               "part of boundary_dissipation: work of Coulomb friction that strains the soil and is dissipated by its "
-               "stress"},
+               "part of boundary_dissipation: work on the stress of soil that a Coulomb boundary strains while it "
+               "slips; next to nothing where strong soil slides"},
       .run = friction_strain_energy},
      {.type = {"soil_work_on_bodies", "J", "J/m", 0, 0, OF_BOTH | AUDIT, 100.0,
                "work of the soil on bodies that move freely since the start"},

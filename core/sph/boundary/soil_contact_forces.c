@@ -15,8 +15,9 @@ enum { GRAIN = MOR_CONTACT_GRAIN };
 /* Tractions below this part of the bulk modulus are rounding, and do not tell whether a particle slides. */
 #define NOISE 1.0e-9
 
-/* Largest part of rho c0^2 that is a shear modulus, 1: half of it, for Poisson's ratios from 0 on. */
-#define LARGEST_SHEAR 0.5
+/* Shear modulus over rho c0^2, the bulk modulus, by which sliding loads soil, 1: that of Poisson's ratio 2/7. What is
+ * stiffer in shear may be loaded by a multiple of what is missing, once: then it slips. */
+#define SHEAR 0.5
 
 /* Own traction over the limit of friction from which on soil that is sheared may be stronger than the contact, 1: a
  * traction that stays below is that of soil which yields. */
@@ -158,7 +159,7 @@ typedef struct boundary_terms {
     const double *velocity;         /* of the boundary, m/s */
     const double *gradient;         /* sum V grad_i W, 1/m */
     const double *repulsion;        /* acceleration by the barrier, m/s2; NULL without */
-    const double *strain_rate;      /* of the particle, 1/s */
+    const double *strain_rate;      /* of the particle, 1/s; NULL: coulomb_pulls */
     double across;                  /* stiffness across the face over rho c0^2, 1; 0: no gap is kept */
     double gap;                     /* between the particle and the face, m */
     double held;                    /* tension that the face bears for a moment, Pa */
@@ -176,22 +177,26 @@ typedef struct mirrored {
  * as fast as it was sheared in the last step if its traction has stayed below the limit: it yields there, before it
  * slips. All slip shears no soil: it would bear its strength, in place of the friction that acts on it.
  * used: own traction against the motion over the limit, 1; slip: motion along the boundary, m/s; limit: of friction,
- * m/s2; area: acceleration by a unit of traction, 1/(m kg/m3) */
+ * m/s2 */
 static double find_stick(const boundary_terms *p, const double *record, const double *normal, double used,
-                         const double *slip, double limit, double area)
+                         const double *slip, double limit)
 {
+    const double density = record[MOR_RECORD_DENSITY];
     const double impedance = record[MOR_RECORD_IMPEDANCE];
     const double speed = mor_vector_length(slip);
     const double strain = 2.0 * mor_vector_length(p->gradient); /* by the unit of length that is mirrored, 1/m */
-    const double modulus = LARGEST_SHEAR * impedance * impedance / record[MOR_RECORD_DENSITY];
+    const double modulus = SHEAR * impedance * impedance / density;
     const double yields = mor_max(mor_min((1.0 - used) / (1.0 - YIELDS), 1.0), 0.0);
     double shear[3];
-    if (!(used < 1.0) || !(speed > 0.0)) {
-        return used < 1.0 ? 1.0 : 0.0;
+    if (!(used < 1.0)) {
+        return 0.0;
+    }
+    if (!(speed > 0.0)) {
+        return 1.0;
     }
     mor_symmetric_apply(p->strain_rate, normal, shear);
     const double rate = mor_max(2.0 * mor_vector_dot(shear, slip) / speed, 0.0);
-    const double loads = limit * (1.0 - used) / (area * modulus * p->step);
+    const double loads = limit * (1.0 - used) / (strain / density * modulus * p->step);
     const double allowed = (loads + SPREAD * yields * rate) / strain;
     return allowed < speed ? allowed / speed : 1.0;
 }
@@ -285,9 +290,9 @@ static double press(const boundary_terms *p, const double *record, double closin
     return touch * (closing < 0.0 ? mor_min(along, most) : along);
 }
 
-/* Brings the tangential acceleration by the stress of a particle at a Coulomb boundary to that by friction, m/s2;
- * returns the part of the motion along the boundary that is mirrored. Where the boundary holds soil under tension the
- * traction alone tells whether it slips.
+/* Brings the tangential acceleration by the stress of a particle at a Coulomb boundary, and at a body by what continues
+ * it, to that by friction, m/s2; returns the part of the motion along the boundary that is mirrored. Where the boundary
+ * holds soil under tension the traction alone tells whether it slips.
  * slip: motion along the boundary, m/s; on return what of it is slip */
 static double find_friction(const boundary_terms *p, const double *record, const double *normal, double limit,
                             double *slip, double *tangential)
@@ -299,7 +304,7 @@ static double find_friction(const boundary_terms *p, const double *record, const
     if (p->coulomb_pulls) {
         return held;
     }
-    const double stick = find_stick(p, record, normal, used, slip, limit, area);
+    const double stick = find_stick(p, record, normal, used, slip, limit);
     for (int a = 0; a < 3; ++a) {
         slip[a] *= 1.0 - stick;
     }
@@ -419,7 +424,7 @@ static void add_slot_acceleration(mor_soil_contact *contact, const mor_contact_s
         if (soil->of_soil != NULL) {
             p.limiter_rate = 2.0 * soil->of_soil[i * MOR_PAIR_OF_SOIL_SIZE + MOR_PAIR_OF_SOIL_LIMITER];
         }
-        p.strain_rate = soil->strain_rate + 6 * i;
+        p.strain_rate = soil->strain_rate != NULL ? soil->strain_rate + 6 * i : NULL;
         p.velocity = mor_soil_contact_velocity(contact, lane);
         p.gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;
         p.repulsion = contact->barrier.is_on ? repulsion : NULL;

@@ -23,7 +23,7 @@ typedef struct mor_soil_fit_job {
                               * NULL: nowhere */
     double *gradient;        /* shape [n_particles, 9], 1/s; the sums, then the fit */
     double *density_rate;    /* shape [n_particles], kg/m3/s */
-    double *strain_rate;     /* shape [n_particles, 6], 1/s; for the reconstruction; NULL: not needed */
+    double *strain_rate;     /* shape [n_particles, 6], 1/s; for the next step; NULL: not needed */
 } mor_soil_fit_job;
 
 /** What the memory of a particle takes of its soil in a step. */

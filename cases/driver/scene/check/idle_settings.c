@@ -208,6 +208,58 @@ static void warn_of_region(mor_context *context, const mor_simulation *s, const 
     }
 }
 
+/* ---- Probes ------------------------------------------------------------------------------------------------------ */
+
+/* The box that soil and bodies can be in, shape [6], m. */
+static void find_domain(const mor_case *c, double *box)
+{
+    for (int a = 0; a < 3; ++a) {
+        box[a] = a < c->dimension ? c->domain_minimum[a] : 0.0;
+        box[3 + a] = a < c->dimension ? c->domain_maximum[a] : 0.0;
+    }
+}
+
+/* Whether nothing in the domain can cross the plane of a probe. */
+static bool is_plane_outside(const mor_case *c, const mor_case_probe *it, const double *domain)
+{
+    double least = INFINITY;
+    double most = -INFINITY;
+    for (int corner = 0; corner < 8; ++corner) {
+        double moved[3];
+        double local[3];
+        for (int a = 0; a < 3; ++a) {
+            moved[a] = domain[(corner >> a & 1) != 0 ? 3 + a : a] - c->translation[a];
+        }
+        mor_matrix_apply_transposed(c->rotation, moved, local);
+        const double height = mor_vector_dot(local, it->direction) - mor_vector_dot(it->origin, it->direction);
+        least = mor_min(least, height);
+        most = mor_max(most, height);
+    }
+    return least > 0.0 || most < 0.0;
+}
+
+static void warn_of_probe(mor_context *context, const mor_case *c, const mor_case_probe *it)
+{
+    static const char *const planes[] = {"mass_flow", "mass_passed", "passages", "passage_energy"};
+    double domain[6];
+    find_domain(c, domain);
+    bool has_plane = false;
+    for (size_t k = 0; k < sizeof planes / sizeof *planes; ++k) {
+        has_plane = has_plane || strcmp(it->type, planes[k]) == 0;
+    }
+    if (has_plane && is_plane_outside(c, it, domain)) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: the plane of probe '%s' lies outside the domain: nothing will cross it; correct origin "
+                        "or direction",
+                        it->place.file, it->place.line, it->name);
+    }
+    if (it->region != NULL && find_box_distance(c, it->region, domain) > c->spacing) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        "%s:%d: the region of probe '%s' lies outside the domain: it will hold nothing; correct it",
+                        it->place.file, it->place.line, it->name);
+    }
+}
+
 /* ---- All --------------------------------------------------------------------------------------------------------- */
 
 static void warn_of_velocity(mor_context *context, const mor_case *c)
@@ -249,6 +301,9 @@ void mor_idle_settings_warn(mor_context *context, const mor_simulation *simulati
     warn_of_maps(context, simulation);
     warn_of_velocity(context, c);
     warn_of_ramp(context, c);
+    for (int k = 0; k < c->n_probes; ++k) {
+        warn_of_probe(context, c, &c->probes[k]);
+    }
     for (int k = 0; k < c->n_gauges; ++k) {
         warn_of_filter(context, simulation, &c->gauges[k]);
         warn_of_region(context, simulation, &c->gauges[k]);

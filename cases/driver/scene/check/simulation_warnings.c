@@ -296,27 +296,28 @@ static void warn_of_shifting(mor_context *context, const mor_case *c)
     }
 }
 
-/* Whether soil slips along something by Coulomb's law. */
-static bool has_coulomb_friction(mor_case_friction friction, double coefficient, const mor_case_frictions *with)
+/* Whether some soil slips along something by Coulomb's law. */
+static bool has_coulomb_friction(const mor_case *c, mor_case_friction friction, double coefficient,
+                                 const mor_case_frictions *with)
 {
-    bool found = friction == MOR_CASE_FRICTION_COULOMB && coefficient > 0.0;
+    bool found = friction == MOR_CASE_FRICTION_COULOMB && coefficient > 0.0 && with->n < c->n_soils;
     for (int k = 0; k < with->n; ++k) {
         found = found || (with->of[k].friction == MOR_CASE_FRICTION_COULOMB && with->of[k].coefficient > 0.0);
     }
     return found;
 }
 
-/* Friction by the traction alone: what slips is sheared all the same, and bears its strength in its first row. */
+/* With held tension a face shears what slips, until its first row bears its strength in place of the friction. */
 static void warn_of_held_friction(mor_context *context, const mor_case *c)
 {
     bool found = false;
     for (int k = 0; k < c->n_walls; ++k) {
         const mor_case_wall *it = &c->walls[k];
-        found = found || has_coulomb_friction(it->friction, it->friction_coefficient, &it->friction_with);
+        found = found || has_coulomb_friction(c, it->friction, it->friction_coefficient, &it->friction_with);
     }
     for (int k = 0; k < c->n_bodies; ++k) {
         const mor_case_body *it = &c->bodies[k];
-        found = found || has_coulomb_friction(it->soil_friction, it->soil_friction_coefficient, &it->friction_with);
+        found = found || has_coulomb_friction(c, it->soil_friction, it->soil_friction_coefficient, &it->friction_with);
     }
     if (found && c->n_soils > 0 && c->numerics.coulomb_tension == 0) {
         mor_context_log(context, MOR_LOG_WARNING,

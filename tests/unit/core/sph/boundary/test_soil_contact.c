@@ -436,7 +436,7 @@ typedef struct motion_along {
 typedef struct met_along {
     double friction; /* over its limit, against the motion, 1 */
     double stick;    /* mirrored part of the motion, 1 */
-    double load;     /* traction by that part in the step, over the limit, of soil of shear modulus rho c0^2 / 2; 1 */
+    double load;     /* traction that it adds in the step over the limit, where Poisson's ratio is 2/7, 1 */
 } met_along;
 
 static met_along move_along(int dimension, const motion_along *motion)
