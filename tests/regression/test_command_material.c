@@ -131,6 +131,22 @@ static void measured_values_stay_as_they_are(void **state)
     program_clear(&outcome);
 }
 
+/* The lateral stresses stay equal on the edge of the hexagon, where one equation is there twice: the axial stress is
+ * 100 kPa / 3 - 2 c cos(phi) / (1 + sin(phi)) = 27.5598 kPa to the end of the path. */
+static void mohr_coulomb_is_extended_beyond_its_strength(void **state)
+{
+    run_folder *folder = *state;
+    const char *const words[] = {"material", "mohr_coulomb",       "--path", "triaxial-extension",
+                                 "-o",       "extended",           "-s",     "youngs_modulus=20 MPa",
+                                 "-s",       "poissons_ratio=0.3", "-s",     "friction_angle=30 deg",
+                                 "-s",       "cohesion=5 kPa",     NULL};
+    program_outcome outcome = program_run(folder, words, 0);
+    program_expect_text(outcome.output, "end        q -72.4402 kPa");
+    program_expect_text(outcome.output, "0 repeated");
+    assert_null(strstr(outcome.output, "stopped before the end"));
+    program_clear(&outcome);
+}
+
 static void every_path_is_followed_and_drawn(void **state)
 {
     run_folder *folder = *state;
@@ -363,6 +379,8 @@ int main(void)
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(tables_of_an_earlier_test_are_removed, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(measured_values_stay_as_they_are, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(mohr_coulomb_is_extended_beyond_its_strength, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(every_path_is_followed_and_drawn, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(the_soil_of_a_case_is_tested_beside_measured_values, run_folder_setup,
                                         run_folder_teardown),

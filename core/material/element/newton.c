@@ -56,6 +56,41 @@ static int evaluate_residual(N_Vector x, N_Vector residual, void *data)
     return evaluate_points(data, 1, N_VGetArrayPointer(x), N_VGetArrayPointer(residual));
 }
 
+/* Equations whose rows of the matrix agree to this, 1, are one and the same, as of two stresses on an edge of a yield
+ * surface, which no strain takes apart; the matrix then gets this share of its largest element on the diagonal, and the
+ * unknowns change alike, by about the least that solves them. */
+static const double SAME_ROWS = 1e-12;
+static const double DIAGONAL = 1e-4;
+
+static bool has_same_rows(SUNMatrix matrix, int n)
+{
+    bool found = false;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < i; ++j) {
+            double squares[2] = {0.0, 0.0};
+            double product = 0.0;
+            for (int k = 0; k < n; ++k) {
+                squares[0] += SM_ELEMENT_D(matrix, i, k) * SM_ELEMENT_D(matrix, i, k);
+                squares[1] += SM_ELEMENT_D(matrix, j, k) * SM_ELEMENT_D(matrix, j, k);
+                product += SM_ELEMENT_D(matrix, i, k) * SM_ELEMENT_D(matrix, j, k);
+            }
+            found = found || (product > 0.0 && product * product >= (1.0 - SAME_ROWS) * squares[0] * squares[1]);
+        }
+    }
+    return found;
+}
+
+static void stiffen_diagonal(SUNMatrix matrix, int n)
+{
+    double largest = 0.0;
+    for (int k = 0; k < n * n; ++k) {
+        largest = fmax(largest, fabs(SM_ELEMENT_D(matrix, k / n, k % n)));
+    }
+    for (int k = 0; k < n; ++k) {
+        SM_ELEMENT_D(matrix, k, k) += copysign(DIAGONAL * largest, SM_ELEMENT_D(matrix, k, k));
+    }
+}
+
 /* Differences to one side: all points in one call. */
 static int evaluate_jacobian(N_Vector x, N_Vector residual, SUNMatrix matrix, void *data, N_Vector first_scratch,
                              N_Vector second_scratch)
@@ -78,6 +113,9 @@ static int evaluate_jacobian(N_Vector x, N_Vector residual, SUNMatrix matrix, vo
         for (int row = 0; row < n; ++row) {
             SM_ELEMENT_D(matrix, row, column) = (values[n * column + row] - base[row]) / step;
         }
+    }
+    if (code == 0 && has_same_rows(matrix, n)) {
+        stiffen_diagonal(matrix, n);
     }
     return code;
 }

@@ -136,6 +136,35 @@ static void a_point_that_is_refused_is_approached_by_shorter_steps(void **state)
     close_bench(&it);
 }
 
+/* One equation twice, as of two equal stresses that soil on an edge of its yield surface keeps equal: x + y = 1; of
+ * three unknowns the last has its own, z = 2. */
+static mor_status one_twice(int n_points, const double *x, double *residual, void *user)
+{
+    const int n = *(const int *)user;
+    for (int k = 0; k < n_points; ++k) {
+        residual[n * k] = residual[n * k + 1] = x[n * k] + x[n * k + 1] - 1.0;
+        residual[n * k + n - 1] = n == 3 ? x[n * k + 2] - 2.0 : residual[n * k];
+    }
+    return MOR_OK;
+}
+
+static void equations_that_are_the_same_change_the_unknowns_alike(void **state)
+{
+    (void)state;
+    for (int n = 2; n <= 3; ++n) {
+        bench it;
+        int64_t n_iterations = 0;
+        double x[3] = {0.2, 0.4, 0.0};
+        open_bench(&it, n);
+        assert_int_equal(mor_newton_solve(it.newton, one_twice, &n, x, &n_iterations), MOR_OK);
+        assert_near(x[0], 0.4, 1e-9); /* symmetric; the iteration ends at a residual of 1e-12, each step leaves 1e-4 */
+        assert_near(x[1], 0.6, 1e-9);
+        assert_near(x[2], n == 3 ? 2.0 : 0.0, 1e-9);
+        assert_in_range(n_iterations, 1, 6);
+        close_bench(&it);
+    }
+}
+
 static void settings_out_of_range_are_named(void **state)
 {
     (void)state;
@@ -164,6 +193,7 @@ int main(void)
         cmocka_unit_test(a_kink_is_crossed_both_ways),
         cmocka_unit_test(equations_without_a_root_are_told_and_leave_x_alone),
         cmocka_unit_test(a_point_that_is_refused_is_approached_by_shorter_steps),
+        cmocka_unit_test(equations_that_are_the_same_change_the_unknowns_alike),
         cmocka_unit_test(settings_out_of_range_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
