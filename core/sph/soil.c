@@ -125,7 +125,7 @@ static const mor_stage soil_stages[] = {
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | BIT(MASS) | BIT(VELOCITY) |
-         BIT(ACCELERATION) | BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS) | SHARED(STATE),
+         BIT(ACCELERATION) | BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS),
      0, SHARED(ENERGY_SUMS) | SHARED(RECORDS),
      "energy dissipated by forces other than the stress, at an interval, when a probe needs it", has_audit},
     {"gradient correction", mor_soil_correct_gradient,
