@@ -191,21 +191,15 @@ void mor_gauge_read(const mor_gauge *gauge, const double *loads, mor_gauge_readi
     reading->height = gauge->has_height ? reading->height : NAN;
 }
 
-/* Keeps the larger value and when it was; returns whether that is the new one. */
-static bool keep_larger(double *peaks, int value_at, int time_at, double value, double time)
+/* Keeps the larger value, or that of the larger size with its sign, and when it was; returns whether that is the new
+ * one. */
+static bool keep_larger(double *peaks, int value_at, int time_at, double value, double time, bool by_size)
 {
-    const bool is_larger = isfinite(value) && !(value <= peaks[value_at]);
-    peaks[value_at] = is_larger ? value : peaks[value_at];
+    const double kept = peaks[value_at];
+    const bool is_larger = isfinite(value) && !(by_size ? fabs(value) <= fabs(kept) : value <= kept);
+    peaks[value_at] = is_larger ? value : kept;
     peaks[time_at] = is_larger ? time : peaks[time_at];
     return is_larger;
-}
-
-/* Keeps the value of the larger size, with its sign, and when it was. */
-static void keep_farther(double *peaks, int value_at, int time_at, double value, double time)
-{
-    const bool is_farther = isfinite(value) && !(fabs(value) <= fabs(peaks[value_at]));
-    peaks[value_at] = is_farther ? value : peaks[value_at];
-    peaks[time_at] = is_farther ? time : peaks[time_at];
 }
 
 static void keep_peaks(mor_gauge *gauge, double time)
@@ -216,10 +210,10 @@ static void keep_peaks(mor_gauge *gauge, double time)
     mor_gauge_reading filtered;
     mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_NOW, &single);
     mor_gauge_read(gauge, gauge->numbers + MOR_GAUGE_FILTERED, &filtered);
-    keep_larger(peaks, MOR_GAUGE_PEAK_SINGLE, MOR_GAUGE_PEAK_SINGLE_TIME, single.normal, time);
-    keep_larger(peaks, MOR_GAUGE_PEAK_SHEAR, MOR_GAUGE_PEAK_SHEAR_TIME, filtered.shear, time);
-    keep_farther(peaks, MOR_GAUGE_PEAK_MOMENT, MOR_GAUGE_PEAK_MOMENT_TIME, filtered.moment, time);
-    if (keep_larger(peaks, MOR_GAUGE_PEAK_NORMAL, MOR_GAUGE_PEAK_TIME, filtered.normal, time)) {
+    keep_larger(peaks, MOR_GAUGE_PEAK_SINGLE, MOR_GAUGE_PEAK_SINGLE_TIME, single.normal, time, false);
+    keep_larger(peaks, MOR_GAUGE_PEAK_SHEAR, MOR_GAUGE_PEAK_SHEAR_TIME, filtered.shear, time, false);
+    keep_larger(peaks, MOR_GAUGE_PEAK_MOMENT, MOR_GAUGE_PEAK_MOMENT_TIME, filtered.moment, time, true);
+    if (keep_larger(peaks, MOR_GAUGE_PEAK_NORMAL, MOR_GAUGE_PEAK_TIME, filtered.normal, time, false)) {
         peaks[MOR_GAUGE_PEAK_SOIL] = filtered.of_source[MOR_GAUGE_SOIL];
         peaks[MOR_GAUGE_PEAK_BODIES] = filtered.of_source[MOR_GAUGE_BODIES];
         peaks[MOR_GAUGE_PEAK_HEIGHT] = filtered.height;
