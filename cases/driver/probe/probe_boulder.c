@@ -373,13 +373,14 @@ const mor_probe_measure mor_probe_boulder_measures[] = {
      .count = count_travel,
      .remember = remember_travel},
     {.type =
-         {MOR_PROBE_PASSAGES, "1", "1", REGION | ORIGIN | DIRECTION, DIRECTION, OF_BODIES | PAST, 100.0,
+         {MOR_PROBE_PASSAGES, "1", "1", REGION | ORIGIN | DIRECTION, DIRECTION, OF_BODIES | PAST | PLANE, 100.0,
           "number of free bodies whose center has crossed the plane through origin, along direction, less those that "
           "came back"},
      .run = passages,
      .count = count_passages,
      .remember = remember_passages},
-    {.type = {"passage_energy", "J", "J/m", REGION | ORIGIN | DIRECTION | PERCENTILE, DIRECTION, OF_BODIES | PAST, 50.0,
+    {.type = {"passage_energy", "J", "J/m", REGION | ORIGIN | DIRECTION | PERCENTILE, DIRECTION,
+              OF_BODIES | PAST | PLANE, 50.0,
               "kinetic energy of free bodies when they first crossed that plane, a percentile of those that did; NaN "
               "before the first"},
      .run = passage_energy,

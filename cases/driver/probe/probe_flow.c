@@ -312,11 +312,11 @@ const mor_probe_measure mor_probe_flow_measures[] = {
      .run = deposit_volume,
      .cost = MOR_PROBE_COST_SUM},
     {.type =
-         {"mass_flow", "kg/s", "kg/m/s", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+         {"mass_flow", "kg/s", "kg/m/s", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL | PLANE, 100.0,
           "mass of soil per time through the plane through origin, along direction: that of a slab of two spacings"},
      .run = mass_flow,
      .cost = MOR_PROBE_COST_SUM},
-    {.type = {"mass_passed", "kg", "kg/m", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL | PAST, 100.0,
+    {.type = {"mass_passed", "kg", "kg/m", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL | PAST | PLANE, 100.0,
               "net mass of soil that has crossed the plane through origin since the start, along direction: exact, by "
               "the side of each particle"},
      .run = mass_passed,

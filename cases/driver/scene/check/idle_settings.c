@@ -240,14 +240,9 @@ static bool is_plane_outside(const mor_case *c, const mor_case_probe *it, const 
 
 static void warn_of_probe(mor_context *context, const mor_case *c, const mor_case_probe *it)
 {
-    static const char *const planes[] = {"mass_flow", "mass_passed", "passages", "passage_energy"};
     double domain[6];
     find_domain(c, domain);
-    bool has_plane = false;
-    for (size_t k = 0; k < sizeof planes / sizeof *planes; ++k) {
-        has_plane = has_plane || strcmp(it->type, planes[k]) == 0;
-    }
-    if (has_plane && is_plane_outside(c, it, domain)) {
+    if ((it->kind->traits & MOR_CASE_PROBE_OF_PLANE) != 0 && is_plane_outside(c, it, domain)) {
         mor_context_log(context, MOR_LOG_WARNING,
                         "%s:%d: the plane of probe '%s' lies outside the domain: nothing will cross it; correct origin "
                         "or direction",
