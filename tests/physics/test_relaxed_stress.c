@@ -142,7 +142,7 @@ static void settling_tells_a_slope_that_cannot_stand(void **state)
     scene_free(it);
 }
 
-/* The verdict hangs on yield, not on stiffness: soft soil that slides would come to rest within a few elastic
+/* The verdict depends on yield, not on stiffness: soft soil that slides would come to rest within a few elastic
  * settlements. */
 static void verdict_does_not_hang_on_the_stiffness(void **state)
 {

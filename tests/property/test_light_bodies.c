@@ -1,6 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
-/* Bodies lighter than the soil they lie in: they make no energy, and what comes out does not hang on the time step. */
+/* Bodies lighter than the soil they lie in: they make no energy, and what comes out does not depend on the step. */
 #include "core/base/math.h"
 #include "tests/common/scene.h"
 

@@ -276,7 +276,7 @@ static void a_flat_box_rebounds_as_it_is_told_to(void **state)
 }
 
 /* A smooth box that meets the floor with a corner leaves it, at the corner, with the restitution that was given: the
- * impulse (1 + e) m v / (1 + r^2 m / I) acts at the lever r of the corner. Within half a per cent of the impact's 2 m/s
+ * impulse (1 + e) m v / (1 + r^2 m / I) acts at the lever r of the corner. Within half a percent of the impact's 2 m/s
  * and of its 9.6 rad/s: the box turns by 5 degrees on the way. */
 static void a_corner_rebounds_as_it_is_told_to(void **state)
 {

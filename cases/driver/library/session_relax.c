@@ -25,7 +25,7 @@
 #define BAND_SPACINGS 4.0
 
 /* That of a mesh too thin for its spacing: cells across its thinnest side, so that how thick it is found to be does not
- * hang on the spacing, and most cells along its longest. */
+ * depend on the spacing, and most cells along its longest. */
 #define THIN_CELLS 8.0
 #define LONG_CELLS 256.0
 

@@ -21,7 +21,7 @@
 
 enum { SPACINGS_MAX = 8, WORD_BYTES = 64, BAND_BYTES = 64 };
 
-/* Factors beyond this one are not tried: such soil does not hang on its strength. */
+/* Factors beyond this one are not tried: such soil does not depend on its strength. */
 static const double largest_factor = 64.0;
 
 /* What is found at one spacing. */

@@ -195,7 +195,7 @@ static void warn_of_width(mor_context *context, const mor_safety *it, double tol
     }
 }
 
-/* What the search found may hang on one of its limits, or on too few particles. */
+/* What the search found may depend on one of its limits, or on too few particles. */
 static void warn_of_result(mor_context *context, const mor_safety *it)
 {
     const double near_limit = 0.8;
@@ -210,8 +210,8 @@ static void warn_of_result(mor_context *context, const mor_safety *it)
             moved > near_limit * far) {
             mor_context_log(context, MOR_LOG_WARNING,
                             "the largest factor at which the slope stands, %.4g, came to %.3g m, %.0f %% of the "
-                            "displacement of failure, %.3g m: the result hangs on that limit; compare speed.png, and a "
-                            "finer spacing",
+                            "displacement of failure, %.3g m: the result depends on that limit; compare speed.png, "
+                            "and a finer spacing",
                             trial->factor, moved * r->height, 100.0 * moved / far, far * r->height);
         }
     }

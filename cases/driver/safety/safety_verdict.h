@@ -35,7 +35,7 @@ typedef struct mor_safety_sample {
     double force;        /* mean unbalanced force over the weight, 1; told, not judged */
 } mor_safety_sample;
 
-/** Numbers that the criteria hang on. */
+/** Numbers that the criteria depend on. */
 typedef struct mor_safety_rules {
     double damped;  /* time for which motion is damped; before that nothing is judged, 1 */
     double window;  /* time over which speed and displacement are compared, 1 */

@@ -100,7 +100,7 @@ static inline double mor_separation_open(double strain, const double *before, co
 
 /** Returns the strain of separation, >= 0, 1, of soil whose density by summation is a ratio of the one at rest (A4).
  *  What is as dense as at the start has closed: a free surface only lowers the sum. Below, the sum is no measure, for
- *  it counts grains too high that lie in pairs; the bound is steep so that nothing hangs on the rounding of a sum.
+ *  it counts grains too high that lie in pairs; the bound is steep so that nothing depends on the rounding of a sum.
  *  @param separation [in]  >= 0, 1
  *  @param ratio      [in]  of both densities, 1 */
 static inline double mor_separation_bound(double separation, double ratio)

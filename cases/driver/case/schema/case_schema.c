@@ -274,8 +274,8 @@ static const mor_case_part external_parts[] = {
 static const mor_case_key stress_keys[] = {
     {{"type", CHOICE, "1", DEFAULT(0.0), ANY, "none|k0|settled|uniform|formula",
       "none: zero; k0: vertical stress by the weight above, lateral stress by lateral_ratio; settled: as k0, then "
-      "brought to rest under damping before the start; uniform: the same pressure everywhere, as in a closed vessel; "
-      "formula: by formulas of the place"},
+      "brought to rest before the start, as settle_method says; uniform: the same pressure everywhere, as in a closed "
+      "vessel; formula: by formulas of the place"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, initial_stress)},
     {{"pressure", SCALAR, "Pa", DEFAULT(0.0), NOT_NEGATIVE, NULL,
@@ -299,9 +299,10 @@ static const mor_case_key stress_keys[] = {
      MOR_CASE_STORE_REALS,
      AT(mor_case_soil, settle_speed_ratio)},
     {{"settle_method", CHOICE, "1", DEFAULT(0.0), ANY, "auto|damping|relaxation",
-      "damping: velocities are damped until soil is slow; relaxation: local damping until forces balance, which is "
-      "faster; auto: relaxation with stress_diffusion_limiter = \"transient\", which lets soil rest, else damping; "
-      "damping, too, where settle_speed_ratio is given"},
+      "damping: velocities are damped until soil is slow; relaxation: all motion is stopped at each peak of the "
+      "kinetic energy until forces balance, which is faster; auto: relaxation with stress_diffusion_limiter = "
+      "\"transient\", which lets soil rest, else damping; damping, too, "
+      "where settle_speed_ratio is given"},
      MOR_CASE_STORE_CHOICE,
      AT(mor_case_soil, settle_method)},
     {{"settle_from", CHOICE, "1", DEFAULT(0.0), ANY, "k0|none",

@@ -156,7 +156,7 @@ static void bodies_are_followed(void **state)
     scene_expect_near("the velocity of the top", scene_probe(it, "point"), 1.0 + 0.4 * cos(0.08), 1e-3);
     scene_expect_near("the way of the top", scene_probe(it, "moved"), 0.04 + 0.2 * sin(0.08), 1e-4);
     assert_true(scene_probe(it, "passages") == 1.0);
-    const double rotation = 0.4 * 0.04 * 4.0; /* over mass / 2: 2/5 r2 w2; of the particles within a few per cent */
+    const double rotation = 0.4 * 0.04 * 4.0; /* over mass / 2: 2/5 r2 w2; of the particles within a few percent */
     scene_expect_near("the energy at the line", scene_probe(it, "energy"),
                       energy * (1.0 + pow(9.81 * 0.02, 2) + rotation), 0.02 * energy);
     const double travel = 0.5 * (0.04 * hypot(1.0, fall) + asinh(fall) / 9.81); /* length of a parabola */

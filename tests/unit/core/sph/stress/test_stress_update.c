@@ -166,7 +166,7 @@ static void elastic_tension_that_diffuses_away_is_no_separation(void **state)
     law_point_close(&s.law);
 }
 
-/* (A4): nothing is open in soil as dense as at the start; a tenth below it is no measure; between it hangs on no
+/* (A4): nothing is open in soil as dense as at the start; a tenth below it is no measure; between it depends on no
  * rounding. */
 static void soil_as_dense_as_before_has_closed(void **state)
 {
@@ -276,7 +276,7 @@ static void sums_tell_lost_compression_within_the_density(void **state)
 }
 
 /* A particle separates by no more than what closes it on its way to a face, with many neighbors by what a lattice takes
- * to lose sight of itself; in between it hangs on no rounding of a moment. */
+ * to lose sight of itself; in between it depends on no rounding of a moment. */
 static void separation_is_bounded_by_the_neighbors_that_are_seen(void **state)
 {
     (void)state;
