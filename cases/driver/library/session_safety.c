@@ -57,6 +57,9 @@ static mor_status split_spacings(mor_context *context, const char *text, level *
 {
     *n = 1;
     memset(levels, 0, SPACINGS_MAX * sizeof *levels);
+    for (int k = 0; k < SPACINGS_MAX; ++k) {
+        levels[k].band = (mor_safety_band){.stable = NAN, .fails = NAN};
+    }
     if (text == NULL) {
         return MOR_OK;
     }

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The lower bound is halved so often where soil does not stand at it. */
-enum { HALVES_MAX = 4 };
+/* Starts that are tried: the lower bound, half of it where soil does not stand at it, and so on. */
+enum { STARTS_MAX = 4 };
 
 static bool is_stopping(const mor_safety_request *request)
 {
@@ -64,13 +64,10 @@ static void print_trial(const mor_safety *it, const mor_safety_trial *trial, FIL
 {
     const mor_safety_reference *r = &it->setup.reference;
     const mor_safety_finding *found = &trial->finding;
-    const mor_safety_sample *last = trial->n_samples > 0 ? &trial->samples[trial->n_samples - 1] : NULL;
-    if (last == NULL) {
-        return;
-    }
-    fprintf(output, "%9.5f  %-9s  %9.2e %-8s  %9.4f %-8s  %7.2f  %7llu%s%s\n", trial->factor,
+    const mor_safety_sample last = mor_safety_trial_last(trial);
+    fprintf(output, "%9.5f  %-10s  %9.2e %-8s  %9.4f %-8s  %7.2f  %7llu%s%s\n", trial->factor,
             mor_safety_verdict_word(found->verdict), found->speed * mor_safety_reference_speed(r),
-            mor_safety_sign_word(found->by_speed), last->displacement * r->height,
+            mor_safety_sign_word(found->by_speed), last.displacement * r->height,
             mor_safety_sign_word(found->by_displacement), trial->seconds, (unsigned long long)trial->n_steps,
             found->reason[0] != '\0' ? "  " : "", found->reason);
     fflush(output);
@@ -90,13 +87,13 @@ static void keep_mechanism(mor_context *context, mor_safety *it, mor_simulation 
     }
 }
 
-/* A computation that breaks down says nothing of the slope: such a trial is undecided, and the search goes on. */
+/* A computation that breaks down says nothing of the slope, and the search goes on. */
 static mor_status accept_breakdown(mor_context *context, mor_safety_trial *trial, mor_status status)
 {
-    if (status != MOR_ERROR_NUMERIC || trial->n_samples == 0) {
+    if (status != MOR_ERROR_NUMERIC || trial->samples == NULL) {
         return status;
     }
-    trial->finding.verdict = MOR_SAFETY_UNDECIDED;
+    trial->finding.verdict = MOR_SAFETY_BROKE_DOWN;
     trial->finding.reason = "the computation broke down";
     mor_context_log(context, MOR_LOG_WARNING, "the trial at F = %g broke down: %s", trial->factor, context->message);
     mor_context_clear_error(context);
@@ -132,12 +129,12 @@ static mor_status make_trial(mor_context *context, const mor_safety_request *req
 static mor_status start(mor_context *context, const mor_safety_request *request, mor_safety *it)
 {
     double factor = request->lower;
-    for (int k = 0; k < HALVES_MAX && !it->stands && !is_stopping(request); ++k, factor *= 0.5) {
+    for (int k = 0; k < STARTS_MAX && !it->stands && !is_stopping(request); ++k, factor *= 0.5) {
         mor_safety_simulation_free(context, &it->mechanism); /* what failed from another start is not compared */
         mor_reduced_case_set_factor(it->setup.reduced, factor);
         const mor_status status = prepare(context, request, it, k == 0);
-        if (status == MOR_NOT_CONVERGED && k + 1 < HALVES_MAX) {
-            fprintf(request->output, "%9.5f  %-9s  the soil does not come to rest; the search begins lower\n", factor,
+        if (status == MOR_NOT_CONVERGED && k + 1 < STARTS_MAX) {
+            fprintf(request->output, "%9.5f  %-10s  the soil does not come to rest; the search begins lower\n", factor,
                     "no start");
             mor_context_log(context, MOR_LOG_INFO, "F = %g: the soil does not come to rest: %s", factor,
                             context->message);
@@ -177,7 +174,7 @@ static mor_status search(mor_context *context, const mor_safety_request *request
 static mor_status find_body(mor_context *context, mor_safety *it)
 {
     const mor_safety_trial *trial = &it->trials[it->mechanism_trial];
-    const double largest = trial->samples[trial->n_samples - 1].displacement * it->setup.reference.height;
+    const double largest = mor_safety_trial_last(trial).displacement * it->setup.reference.height;
     return mor_safety_body_find(context, it->mechanism, &it->setup.reference, largest, &it->body);
 }
 
@@ -195,6 +192,20 @@ static void warn_of_width(mor_context *context, const mor_safety *it, double tol
     }
 }
 
+/* A body that is most of the soil is no measure of a part of it that fails. */
+static void warn_of_smallest(mor_context *context, const mor_safety_reference *reference)
+{
+    const double usual = 0.2;
+    if (reference->smallest > usual) {
+        mor_context_log(
+            context, MOR_LOG_WARNING,
+            "the smallest body that counts as a failure of a slope %.3g m high is %.0f %% of the soil: what "
+            "fails of less goes unnoticed, and the factor is too high for it; give the height of the part "
+            "in question (--height)",
+            reference->height, 100.0 * reference->smallest);
+    }
+}
+
 /* What the search found may depend on one of its limits, or on too few particles. */
 static void warn_of_result(mor_context *context, const mor_safety *it)
 {
@@ -205,7 +216,7 @@ static void warn_of_result(mor_context *context, const mor_safety *it)
     const double far = it->setup.rules.far;
     for (int k = 0; k < it->n_trials; ++k) {
         const mor_safety_trial *trial = &it->trials[k];
-        const double moved = trial->n_samples > 0 ? trial->samples[trial->n_samples - 1].displacement : 0.0;
+        const double moved = mor_safety_trial_last(trial).displacement;
         if (trial->finding.verdict == MOR_SAFETY_STABLE && trial->factor == it->band.stable &&
             moved > near_limit * far) {
             mor_context_log(context, MOR_LOG_WARNING,
@@ -233,7 +244,7 @@ mor_status mor_safety_find(mor_context *context, const mor_safety_request *reque
     it->setup.user = request->user;
     MOR_TRY(context, mor_reduced_case_new(context, request->the_case, &it->setup.reduced));
     mor_reduced_case_describe(it->setup.reduced, request->output);
-    fprintf(request->output, "\n%9s  %-9s  %18s  %18s  %7s  %7s\n%9s  %-9s  %9s %-8s  %9s %-8s  %7s  %7s\n", "F",
+    fprintf(request->output, "\n%9s  %-10s  %18s  %18s  %7s  %7s\n%9s  %-10s  %9s %-8s  %9s %-8s  %7s  %7s\n", "F",
             "verdict", "speed", "displacement", "time", "steps", "[1]", "", "[m/s]", "", "[m]", "", "[s]", "[1]");
     MOR_TRY(context, start(context, request, it));
     MOR_TRY(context, search(context, request, it));
@@ -241,6 +252,7 @@ mor_status mor_safety_find(mor_context *context, const mor_safety_request *reque
         MOR_TRY(context, find_body(context, it));
     }
     if (it->n_trials > 0) {
+        warn_of_smallest(context, &it->setup.reference);
         warn_of_result(context, it);
         warn_of_width(context, it, request->bracket.tolerance);
     }

@@ -40,14 +40,14 @@ static void print_trials(const mor_safety *it, FILE *out)
                  "displacement_over_height [1],growth [m],unbalanced_force [1],time [s],steps [1],reason\n");
     for (int k = 0; k < it->n_trials; ++k) {
         const mor_safety_trial *trial = &it->trials[order[k]];
-        const mor_safety_sample *last = &trial->samples[trial->n_samples - 1];
+        const mor_safety_sample last = mor_safety_trial_last(trial);
         const mor_safety_finding *found = &trial->finding;
         const double numbers[] = {found->speed * mor_safety_reference_speed(r),
                                   found->speed_ratio,
-                                  last->displacement * r->height,
-                                  last->displacement,
+                                  last.displacement * r->height,
+                                  last.displacement,
                                   found->growth * r->height,
-                                  last->force,
+                                  last.force,
                                   trial->seconds};
         fprintf(out, "%.17g,%s,%s,%s,", trial->factor, mor_safety_verdict_word(found->verdict),
                 mor_safety_sign_word(found->by_speed), mor_safety_sign_word(found->by_displacement));
@@ -175,14 +175,14 @@ static void put_trials(const mor_safety *it, FILE *out)
     fprintf(out, "  \"trials\": [");
     for (int k = 0; k < it->n_trials; ++k) {
         const mor_safety_trial *trial = &it->trials[order[k]];
-        const mor_safety_sample *last = &trial->samples[trial->n_samples - 1];
+        const mor_safety_sample last = mor_safety_trial_last(trial);
         fprintf(out, "%s\n    {", k > 0 ? "," : "");
         put_number(out, "factor [1]", trial->factor, ", ");
         put_text(out, "verdict", mor_safety_verdict_word(trial->finding.verdict), ", ");
         put_text(out, "by_speed", mor_safety_sign_word(trial->finding.by_speed), ", ");
         put_text(out, "by_displacement", mor_safety_sign_word(trial->finding.by_displacement), ", ");
         put_number(out, "speed [m/s]", trial->finding.speed * mor_safety_reference_speed(r), ", ");
-        put_number(out, "displacement [m]", last->displacement * r->height, ", ");
+        put_number(out, "displacement [m]", last.displacement * r->height, ", ");
         put_number(out, "time [s]", trial->seconds, ", ");
         put_text(out, "reason", trial->finding.reason, "}");
     }

@@ -10,8 +10,12 @@
 
 #include <string.h>
 
-/* The smallest body that counts as a failure of the slope has this area over H^2, in space this volume over H^3. */
+/* The smallest body that counts as a failure of the slope has this area over H^2, in space this volume over H^3, or
+ * over H^2 and the width of the soil where that is less than H. */
 static const double smallest_body = 0.05;
+
+/* No such body is more than this share of all soil. */
+static const double largest_share = 0.5;
 
 /* Soil this much deeper than its surface is uneven is no slope by its surface: a cut, a heap against a wall. */
 static const double deep = 4.0;
@@ -105,17 +109,27 @@ static double find_slowest_wave(const mor_soil *soil)
     return slowest;
 }
 
+/* The smaller of the two level extents of the soil, m. */
+static double find_width(const mor_simulation *simulation)
+{
+    mor_soil_columns columns;
+    mor_soil_columns_find(simulation, &columns);
+    return mor_min((double)columns.n[0], (double)columns.n[1]) * columns.spacing;
+}
+
 static void set_scales(const mor_simulation *simulation, double height, double depth, mor_safety_reference *reference)
 {
     const mor_case *c = simulation->the_case;
     const double wave = find_slowest_wave(&simulation->soil);
-    const double cells = smallest_body * pow(height / c->spacing, (double)c->dimension);
+    const double across = c->dimension == 3 ? fmin(height, find_width(simulation)) : c->spacing;
+    const double cells = smallest_body * pow(height / c->spacing, 2.0) * (across / c->spacing);
     const double n = (double)simulation->soil.set.n_particles;
     reference->height = height;
     reference->gravity = mor_vector_length(simulation->soil.settings.gravity);
     reference->settlement = 0.5 * reference->gravity * pow(depth / wave, 2.0);
     reference->period = 4.0 * depth / wave;
-    reference->percent = 100.0 * (1.0 - fmin(fmax(cells, 1.0) / n, 0.5));
+    reference->smallest = fmax(cells, 1.0) / n;
+    reference->percent = 100.0 * (1.0 - fmin(reference->smallest, largest_share));
 }
 
 static mor_status copy_state(mor_context *context, const mor_simulation *simulation, mor_safety_reference *reference)

@@ -21,7 +21,8 @@ typedef struct mor_safety_reference {
     double gravity;         /* m/s2 */
     double settlement;      /* elastic settlement of the soil under its weight, about, m */
     double period;          /* of the longest elastic wave across the depth of the soil, s */
-    double percent;         /* share of the soil that is slower than the smallest body that counts, percent */
+    double smallest;        /* the smallest body that counts as a failure over all soil, 1; above 1: there is less */
+    double percent;         /* share of the soil that is slower than that body, or half of it, percent */
 } mor_safety_reference;
 
 /** Notes the state of a simulation.

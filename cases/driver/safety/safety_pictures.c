@@ -32,24 +32,26 @@ static mor_status write_chart(mor_context *context, const mor_chart *chart, cons
 
 static double final_displacement(const mor_safety *it, int trial)
 {
-    return it->trials[trial].samples[it->trials[trial].n_samples - 1].displacement * it->setup.reference.height;
+    return mor_safety_trial_last(&it->trials[trial]).displacement * it->setup.reference.height;
 }
 
 static mor_status draw_displacement(mor_context *context, const mor_safety *it, const char *folder, FILE *output)
 {
-    static const mor_safety_verdict verdicts[] = {MOR_SAFETY_STABLE, MOR_SAFETY_UNDECIDED, MOR_SAFETY_FAILS};
-    double x[3][MOR_SAFETY_TRIALS_MAX];
-    double y[3][MOR_SAFETY_TRIALS_MAX];
-    mor_chart_series series[4];
+    static const mor_safety_verdict verdicts[] = {MOR_SAFETY_STABLE, MOR_SAFETY_UNDECIDED, MOR_SAFETY_FAILS,
+                                                  MOR_SAFETY_BROKE_DOWN};
+    enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
+    double x[VERDICTS][MOR_SAFETY_TRIALS_MAX];
+    double y[VERDICTS][MOR_SAFETY_TRIALS_MAX];
+    mor_chart_series series[VERDICTS + 1];
     int n = 0;
     double low = INFINITY;
     double high = -INFINITY;
-    for (int v = 0; v < 3; ++v) {
+    for (int v = 0; v < VERDICTS; ++v) {
         int n_points = 0;
         for (int k = 0; k < it->n_trials; ++k) {
             low = fmin(low, it->trials[k].factor);
             high = fmax(high, it->trials[k].factor);
-            if (it->trials[k].finding.verdict == verdicts[v]) {
+            if (it->trials[k].finding.verdict == verdicts[v] && it->trials[k].n_samples > 0) {
                 x[v][n_points] = it->trials[k].factor;
                 y[v][n_points++] = final_displacement(it, k);
             }
@@ -88,12 +90,15 @@ static int find_near(const mor_safety *it, int *near)
                                                   : 0.5 * (it->band.stable + it->band.fails);
     int n = 0;
     bool is_taken[MOR_SAFETY_TRIALS_MAX] = {false};
-    while (n < 2 * NEAR_MAX && n < it->n_trials) {
+    while (n < 2 * NEAR_MAX) {
         int best = -1;
         for (int k = 0; k < it->n_trials; ++k) {
             const bool is_nearer =
                 best < 0 || fabs(it->trials[k].factor - middle) < fabs(it->trials[best].factor - middle);
-            best = !is_taken[k] && is_nearer ? k : best;
+            best = !is_taken[k] && it->trials[k].n_samples > 0 && is_nearer ? k : best;
+        }
+        if (best < 0) {
+            break;
         }
         is_taken[best] = true;
         near[n++] = best;

@@ -6,7 +6,8 @@
 #include "cases/driver/safety/safety_verdict.h"
 
 /** @file
- *  Which factor to try next, from the verdicts so far: expansion, then bisection on both sides of what is undecided.
+ *  Which factor to try next, from the verdicts so far: expansion, or bisection below a computation that broke down,
+ *  until one fails; then bisection on both sides of what is undecided.
  *  Pure functions of the list of trials; how a trial is made is not known here. */
 
 enum { MOR_SAFETY_TRIALS_MAX = 64 };
@@ -22,7 +23,7 @@ typedef struct mor_safety_bracket {
 typedef struct mor_safety_band {
     double stable;        /* largest factor that is stable and below all that are not, 1; NaN: none */
     double fails;         /* smallest factor that fails and is above all that do not, 1; NaN: none */
-    int n_undecided;      /* trials between both */
+    int n_undecided;      /* trials between both that are neither */
     bool is_contradicted; /* a trial is stable above one that is not, or fails below one that does not */
 } mor_safety_band;
 

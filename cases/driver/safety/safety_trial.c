@@ -152,6 +152,12 @@ static mor_status run(mor_context *context, mor_safety_setup *setup, mor_safety_
     return status;
 }
 
+mor_safety_sample mor_safety_trial_last(const mor_safety_trial *trial)
+{
+    const mor_safety_sample none = {.time = NAN, .speed = NAN, .displacement = NAN, .force = NAN};
+    return trial->n_samples > 0 ? trial->samples[trial->n_samples - 1] : none;
+}
+
 mor_status mor_safety_trial_run(mor_context *context, mor_safety_setup *setup, double factor, mor_safety_trial *trial,
                                 mor_simulation **simulation)
 {

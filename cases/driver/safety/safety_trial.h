@@ -54,6 +54,9 @@ void mor_safety_setup_clear(mor_context *context, mor_safety_setup *setup);
 mor_status mor_safety_trial_run(mor_context *context, mor_safety_setup *setup, double factor, mor_safety_trial *trial,
                                 mor_simulation **simulation);
 
+/** The last sample of a trial, without units; NaN in all where it broke down before the first. */
+mor_safety_sample mor_safety_trial_last(const mor_safety_trial *trial);
+
 /** Builds the simulation of the reduced case as it is.
  *  @param simulation [out]  one pointer; NULL after a failure
  *  Returns: MOR_OK; as mor_simulation_init. */

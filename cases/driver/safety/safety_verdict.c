@@ -54,7 +54,8 @@ static void judge_signs(const mor_safety_rules *rules, const mor_safety_sample *
     const mor_safety_sample *last = &samples[n - 1];
     const int middle = find_after(samples, n, last->time - rules->window);
     const int first = find_after(samples, middle, last->time - 2.0 * rules->window);
-    if (n - middle < SAMPLES_LEAST || middle - first < SAMPLES_LEAST || last->time < rules->damped + rules->window) {
+    if (n - middle < SAMPLES_LEAST || middle - first < SAMPLES_LEAST ||
+        last->time < rules->damped + 2.0 * rules->window) {
         return;
     }
     const double before = find_median(samples + first, middle - first);
@@ -119,7 +120,8 @@ const char *mor_safety_verdict_word(mor_safety_verdict verdict)
     static const char *const words[] = {[MOR_SAFETY_OPEN] = "open",
                                         [MOR_SAFETY_STABLE] = "stable",
                                         [MOR_SAFETY_FAILS] = "fails",
-                                        [MOR_SAFETY_UNDECIDED] = "undecided"};
+                                        [MOR_SAFETY_UNDECIDED] = "undecided",
+                                        [MOR_SAFETY_BROKE_DOWN] = "broke down"};
     return words[verdict];
 }
 

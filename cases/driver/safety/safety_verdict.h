@@ -17,7 +17,8 @@ typedef enum mor_safety_verdict {
     MOR_SAFETY_OPEN, /* it has to go on */
     MOR_SAFETY_STABLE,
     MOR_SAFETY_FAILS,
-    MOR_SAFETY_UNDECIDED /* the criteria disagree, or time is up */
+    MOR_SAFETY_UNDECIDED, /* the criteria disagree, or time is up */
+    MOR_SAFETY_BROKE_DOWN /* the computation ended before it was known */
 } mor_safety_verdict;
 
 /** What one criterion says. */
@@ -37,7 +38,7 @@ typedef struct mor_safety_sample {
 
 /** Numbers that the criteria depend on. */
 typedef struct mor_safety_rules {
-    double damped;  /* time for which motion is damped; before that nothing is judged, 1 */
+    double damped;  /* time for which motion is damped; windows that are judged begin after it, 1 */
     double window;  /* time over which speed and displacement are compared, 1 */
     double least;   /* shortest time without damping after which a trial is stable, 1 */
     double longest; /* time without damping after which a trial is undecided, 1 */
@@ -70,7 +71,7 @@ void mor_safety_rules_init(double settlement, double period, mor_safety_rules *r
 void mor_safety_judge(const mor_safety_rules *rules, const mor_safety_sample *samples, int n_samples,
                       mor_safety_finding *finding);
 
-/** Returns a verdict in a word: "stable", "fails", "undecided", "open". */
+/** Returns a verdict in words: "stable", "fails", "undecided", "broke down", "open". */
 const char *mor_safety_verdict_word(mor_safety_verdict verdict);
 
 /** Returns what a criterion says in a word: "rests", "moves", "unclear". */

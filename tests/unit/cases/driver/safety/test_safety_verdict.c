@@ -92,6 +92,12 @@ static double stop(double time)
     return time < 3.0 ? 8.0e-3 * (3.0 - time) : 0.0;
 }
 
+/* Held back while it is damped, for one unit; then what is free moves far in a moment, and comes to rest. */
+static double stop_after_damping(double time)
+{
+    return time <= 1.0 ? 1.1e-3 : 2.0e-2 * exp(-2.0 * (time - 1.0));
+}
+
 static void soil_at_rest_is_stable(void **state)
 {
     (void)state;
@@ -117,6 +123,16 @@ static void motion_that_grows_or_stays_fails(void **state)
     assert_true(accelerated >= sqrt(2.0 * 0.01 / 1.0e-3) - interval); /* not before it has moved by 0.01: law of fall */
     assert_int_equal(follow(steady, 0.0, &time).verdict, MOR_SAFETY_FAILS);
     assert_int_equal(follow(start_late, 0.0, &time).verdict, MOR_SAFETY_FAILS);
+}
+
+/* Its speed is above that of the damped window before, which is no sign that it does not decay. */
+static void speed_is_not_compared_with_that_of_damped_motion(void **state)
+{
+    (void)state;
+    double time = 0.0;
+    const mor_safety_finding found = follow(stop_after_damping, 0.01, &time);
+    assert_int_equal(found.verdict, MOR_SAFETY_UNDECIDED);
+    assert_int_equal(found.by_speed, MOR_SAFETY_RESTS);
 }
 
 static void creep_is_undecided_when_time_is_up(void **state)
@@ -211,6 +227,7 @@ int main(void)
         cmocka_unit_test(soil_at_rest_is_stable),
         cmocka_unit_test(motion_that_decays_is_stable),
         cmocka_unit_test(motion_that_grows_or_stays_fails),
+        cmocka_unit_test(speed_is_not_compared_with_that_of_damped_motion),
         cmocka_unit_test(creep_is_undecided_when_time_is_up),
         cmocka_unit_test(reason_tells_whether_speed_grows_or_decays),
         cmocka_unit_test(rest_after_a_long_way_is_undecided),
