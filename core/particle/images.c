@@ -219,6 +219,19 @@ mor_status mor_images_find(mor_context *context, mor_images *images, const doubl
     return MOR_OK;
 }
 
+void mor_images_find_overhang(const mor_images *images, double *beyond)
+{
+    for (int a = 0; a < 3; ++a) {
+        const double low = images->period->minimum[a];
+        const double high = low + images->period->length[a];
+        beyond[a] = 0.0;
+        for (int64_t i = 0; i < images->n_own && high > low; ++i) {
+            const double place = images->places[3 * i + a];
+            beyond[a] = fmax(beyond[a], fmax(low - place, place - high));
+        }
+    }
+}
+
 mor_status mor_images_make_room(mor_context *context, const mor_images *images, int64_t *room,
                                 const mor_images_array *arrays, int n_arrays)
 {

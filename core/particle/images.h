@@ -104,6 +104,11 @@ static inline bool mor_images_are_used(const mor_images *images)
 mor_status mor_images_find(mor_context *context, mor_images *images, const double *points, int64_t n, int stride,
                            const double *looking, double reach);
 
+/** Finds how far beyond the faces points are seen, because the first of their cluster is between them.
+ *  @param images [in]   found
+ *  @param beyond [out]  shape [3]; largest distance along each axis, 0 for one that is not periodic, unit m */
+void mor_images_find_overhang(const mor_images *images, double *beyond);
+
 /** An array of points that is to hold images, too. */
 typedef struct mor_images_array {
     double **data; /* shape [n, width], owned by who owns the points, any unit; NULL in it: it is not used */

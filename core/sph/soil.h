@@ -216,8 +216,9 @@ void mor_soil_fit(mor_soil *soil);
  *  @param place    [out]  shape [3], unit m */
 void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *place);
 
-/** Checks that no rock comes so near to a periodic face that soil beyond it would see it: rocks have no images.
- *  @param is_start [in]  the case is to be refused, not the run to be stopped
+/** Checks that no rock comes so near to a periodic face that soil beyond it would see it: rocks have no images. Lists
+ *  see soil beyond a face, too, where the first particle of its cluster is before it.
+ *  @param is_start [in]  there are no lists yet, and the case is to be refused, not the run to be stopped
  *  @param time     [in]  for the message, unit s
  *  Returns: MOR_OK; MOR_ERROR_CONFIG at the start, MOR_ERROR_NUMERIC later. */
 mor_status mor_soil_check_images(mor_context *context, const mor_soil *soil, bool is_start, double time);

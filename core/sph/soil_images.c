@@ -76,8 +76,15 @@ void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *pla
 
 mor_status mor_soil_check_images(mor_context *context, const mor_soil *soil, bool is_start, double time)
 {
+    double clearance[3] = {0.0, 0.0, 0.0};
+    if (soil->period.is_any && !is_start) {
+        mor_images_find_overhang(&soil->images, clearance);
+    }
+    for (int a = 0; a < 3; ++a) {
+        clearance[a] += find_reach(soil);
+    }
     for (int k = 0; k < soil->n_boundaries && soil->period.is_any; ++k) {
-        MOR_TRY(context, mor_soil_contact_check_period(context, &soil->boundaries[k], &soil->period, find_reach(soil),
+        MOR_TRY(context, mor_soil_contact_check_period(context, &soil->boundaries[k], &soil->period, clearance,
                                                        is_start ? MOR_ERROR_CONFIG : MOR_ERROR_NUMERIC, time));
     }
     return MOR_OK;

@@ -173,8 +173,8 @@ mor_status mor_soil_find_neighbors(mor_context *context, void *owner, mor_view *
     soil->has_lists = soil->has_lists && (soil->has_boundary_lists || !soil->period.is_any);
     const bool holds = soil->has_lists && soil->has_boundary_lists;
     if (!soil->has_lists) {
-        MOR_TRY(context, mor_soil_check_images(context, soil, false, step->time));
         MOR_TRY(context, build_lists(context, soil, view, &points));
+        MOR_TRY(context, mor_soil_check_images(context, soil, false, step->time));
     }
     if (!soil->has_boundary_lists) {
         MOR_TRY(context, build_boundary_lists(context, soil, view, &points));

@@ -178,6 +178,36 @@ static void a_rock_that_comes_to_a_face_stops_the_run(void **state)
     }
 }
 
+/* Soil in a cluster whose first particle is before a face is seen beyond it, where a post behind the face is not: what
+ * may come to such a post unseen stops the run. A post in the middle is met by all soil. */
+static void a_post_that_soil_could_pass_unseen_stops_the_run(void **state)
+{
+    static const char post[] =
+        "bodies=({name=\"post\"; motion=\"prescribed\"; position=(%g, 0.05); shape={type=\"box\"; min=(-0.025, -0.05); "
+        "max=(0.025, 0.05);}; material={model=\"rigid\"; density=2600;};})";
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char results[MOR_PATH_BYTES];
+    finished_run_store_text(folder, flow, path);
+    for (int k = 0; k < 2; ++k) {
+        char body[512];
+        mor_session *session = NULL;
+        mor_session_outcome outcome = MOR_SESSION_FINISHED;
+        /* A side of the post lies 3.5 spacings behind the face, where 3.05 are the reach of the lists. */
+        snprintf(body, sizeof body, post, k == 0 ? 0.1 : 0.06);
+        assert_int_equal(mor_session_new(&session), MOR_OK);
+        assert_int_equal(mor_session_override(session, body), MOR_OK);
+        assert_int_equal(mor_session_override(session, "walls[0].velocity=(0, 0, 0)"), MOR_OK);
+        assert_int_equal(mor_session_override(session, "numerics.sort_interval=50"), MOR_OK);
+        session_expect(session, mor_session_load_file(session, path), MOR_OK, "");
+        const mor_status status = mor_session_run(session, run_folder_file(folder, results, k == 0 ? "middle" : "face"),
+                                                  false, NAN, &outcome);
+        session_expect(session, status, k == 0 ? MOR_OK : MOR_ERROR_NUMERIC,
+                       k == 0 ? "" : "what clusters of soil reach through the face");
+        mor_session_free(&session);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -189,6 +219,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(heights_are_refused_where_gravity_is_inclined, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_rock_that_comes_to_a_face_stops_the_run, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(a_post_that_soil_could_pass_unseen_stops_the_run, run_folder_setup,
                                         run_folder_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -288,14 +288,15 @@ bool mor_soil_contact_lists_hold(mor_context *context, const mor_soil_contact *c
 double mor_soil_contact_speed(const mor_soil_contact *contact);
 
 /** Checks that no patch of a boundary comes so near to a periodic face that soil beyond it would see it.
- *  @param contact [in]  not a wall
- *  @param period  [in]  of space
- *  @param reach   [in]  of the lists, unit m
- *  @param refusal [in]  what is returned where one does
- *  @param time    [in]  for the message, unit s
+ *  @param contact   [in]  not a wall
+ *  @param period    [in]  of space
+ *  @param clearance [in]  shape [3]; least distance from the faces across each axis, unit m
+ *  @param refusal   [in]  what is returned where one comes nearer
+ *  @param time      [in]  for the message, unit s
  *  Returns: MOR_OK; refusal. */
 mor_status mor_soil_contact_check_period(mor_context *context, const mor_soil_contact *contact,
-                                         const mor_period *period, double reach, mor_status refusal, double time);
+                                         const mor_period *period, const double *clearance, mor_status refusal,
+                                         double time);
 
 /** Sums kernel values over the boundary, slot by slot, and finds its velocity as the particles see it.
  *  @param table     [in]      pair routines

@@ -44,7 +44,8 @@ mor_status mor_soil_contact_find_images(mor_context *context, mor_soil_contact *
 }
 
 mor_status mor_soil_contact_check_period(mor_context *context, const mor_soil_contact *contact,
-                                         const mor_period *period, double reach, mor_status refusal, double time)
+                                         const mor_period *period, const double *clearance, mor_status refusal,
+                                         double time)
 {
     const mor_boundary *boundary = contact->boundary;
     for (int p = 0; p < boundary->n_patches; ++p) {
@@ -54,12 +55,14 @@ mor_status mor_soil_contact_check_period(mor_context *context, const mor_soil_co
             const int a = (int)(k % 3);
             const double length = period->length[a];
             const double above = boundary->records[(patch->first + k / 3) * RECORD + a] - period->minimum[a];
-            MOR_CHECK(context, !(length > 0.0) || (above >= reach && above <= length - reach), refusal,
+            const double least = clearance[a];
+            MOR_CHECK(context, !(length > 0.0) || (above >= least && above <= length - least), refusal,
                       "body %d of '%s' comes to %.4g m from the periodic face %c = %g m at t = %.6g s; bodies are not "
                       "continued beyond periodic faces and must stay %.4g m away from them, the reach of the neighbor "
-                      "lists; move or hold it, make the domain longer along %c, or take %c out of domain.periodic",
+                      "lists and what clusters of soil reach through the face; move or hold it, make the domain longer "
+                      "along %c, or take %c out of domain.periodic",
                       p, boundary->name, fmin(above, length - above), "xyz"[a],
-                      period -> minimum[a] + (above < 0.5 * length ? 0.0 : length), time, reach, "xyz"[a], "xyz"[a]);
+                      period -> minimum[a] + (above < 0.5 * length ? 0.0 : length), time, least, "xyz"[a], "xyz"[a]);
         }
     }
     return MOR_OK;
