@@ -211,6 +211,7 @@ mor_status mor_body_group_init(mor_context *context, mor_body_group *group, cons
     group->n_pieces = count_pieces(requests, n_bodies);
     group->boundary.n_points = n;
     group->boundary.n_patches = n_bodies;
+    group->boundary.is_deformable = operations->is_deformable;
     snprintf(group->boundary.name, sizeof group->boundary.name, "%s", name);
     for (int a = 0; a < 3; ++a) {
         group->domain_minimum[a] = -INFINITY;

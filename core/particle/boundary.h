@@ -66,6 +66,7 @@ typedef struct mor_boundary {
     double *depths;  /* shape [n_points]; below that face, > 0 in the patch, m; with normals */
     mor_boundary_patch *patches; /* shape [n_patches]; by rising range, without gaps */
     int n_patches;
+    bool is_deformable;          /* the points of a patch move against each other */
     double largest_speed;        /* of any point, m/s; bounds how far points move in a step */
     double slowing;              /* factor by which light bodies shorten the soil's steps, 1 or more, 1; 0: no body */
     const double *mean_velocity; /* shape [n_points, 3]; over the present step, for the work of forces on points, m/s;

@@ -172,13 +172,14 @@ static double find_wall_box(const mor_soil_contact *contact, mor_sleep_box *box)
 static bool has_stayed(mor_soil *soil, const mor_boundary *boundary, const mor_boundary_patch *patch, double *rest,
                        double length)
 {
-    const int64_t middle = patch->first + patch->n_points / 2;
-    const int64_t last = patch->first + patch->n_points - 1;
-    const double *const places[3] = {boundary->records + patch->first * MOR_BOUNDARY_RECORD,
-                                     boundary->records + middle * MOR_BOUNDARY_RECORD,
-                                     boundary->records + last * MOR_BOUNDARY_RECORD};
-    return patch->n_points == 0 || mor_sleep_body_rests(rest, places, length, find_limits(soil).displacement,
-                                                        soil->settings.scheme.sleep_after);
+    int64_t points[MOR_SLEEP_SAMPLES];
+    const double *places[MOR_SLEEP_SAMPLES];
+    const int n = mor_sleep_pick_points(patch->n_points, boundary->is_deformable, points);
+    for (int k = 0; k < n; ++k) {
+        places[k] = boundary->records + (patch->first + points[k]) * MOR_BOUNDARY_RECORD;
+    }
+    return n == 0 || mor_sleep_body_rests(rest, places, n, length, find_limits(soil).displacement,
+                                          soil->settings.scheme.sleep_after);
 }
 
 /* What moves: walls and driven bodies at any speed, for soil does not tell them to stop; free bodies that are faster

@@ -63,10 +63,25 @@ mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bo
     return MOR_OK;
 }
 
-bool mor_sleep_body_rests(double *rest, const double *const places[3], double length, double displacement, double after)
+int mor_sleep_pick_points(int64_t n_points, bool is_deformable, int64_t *points)
+{
+    const int n = n_points == 0 ? 0 : is_deformable ? MOR_SLEEP_SAMPLES : 3;
+    for (int k = 0; k < n && is_deformable; ++k) {
+        points[k] = k * (n_points - 1) / (n - 1);
+    }
+    if (n > 0 && !is_deformable) {
+        points[0] = 0;
+        points[1] = n_points / 2;
+        points[2] = n_points - 1;
+    }
+    return n;
+}
+
+bool mor_sleep_body_rests(double *rest, const double *const *places, int n_places, double length, double displacement,
+                          double after)
 {
     double farthest2 = 0.0;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < n_places; ++k) {
         double moved[3];
         for (int a = 0; a < 3; ++a) {
             moved[a] = places[k][a] - rest[3 * k + a];
@@ -76,7 +91,7 @@ bool mor_sleep_body_rests(double *rest, const double *const places[3], double le
     rest[MOR_SLEEP_REST_TIME] += length;
     if (!(farthest2 < displacement * displacement)) {
         rest[MOR_SLEEP_REST_TIME] = 0.0;
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < n_places; ++k) {
             memcpy(rest + 3 * k, places[k], 3 * sizeof *rest);
         }
     }

@@ -22,9 +22,10 @@ enum {
 
 /** What is kept of a body to tell whether it rests. */
 enum {
-    MOR_SLEEP_REST_PLACES = 0, /* 3 x 3: of its first, middle and last point when it last moved on, m */
-    MOR_SLEEP_REST_TIME = 9,   /* since then, s */
-    MOR_SLEEP_REST = 10
+    MOR_SLEEP_SAMPLES = 16,    /* points of a body that are followed, at most */
+    MOR_SLEEP_REST_PLACES = 0, /* shape [MOR_SLEEP_SAMPLES, 3]; where those were when it last moved on, m */
+    MOR_SLEEP_REST_TIME = 3 * MOR_SLEEP_SAMPLES, /* since then, s */
+    MOR_SLEEP_REST
 };
 
 /** Clusters of particles, and which of them sleep. Owner: the soil. */
@@ -87,14 +88,22 @@ mor_status mor_sleep_find_neighbors(mor_context *context, mor_sleep *sleep, cons
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bodies);
 
+/** Picks the points of a body that are followed to tell whether it rests: three of a rigid one, of one that deforms
+ *  MOR_SLEEP_SAMPLES spread over all of it.
+ *  @param n_points [in]   of the body, in tree order, >= 0
+ *  @param points   [out]  shape [MOR_SLEEP_SAMPLES]; indices, rising
+ *  Returns: how many; 0: the body has none. */
+int mor_sleep_pick_points(int64_t n_points, bool is_deformable, int64_t *points);
+
 /** Whether a body rests: it has not moved on for a time, however slowly it does. Where it counts from is moved with it
  *  only when it has moved on, so that a body that creeps moves on in the end.
  *  @param rest         [in,out]  shape [MOR_SLEEP_REST], of the body, units of the enum
- *  @param places       [in]      shape [3][3], of its first, middle and last point, unit m
+ *  @param places       [in]      shape [n_places] of 3 numbers each, of the points that are followed, unit m
+ *  @param n_places     [in]      1 to MOR_SLEEP_SAMPLES, the same in all calls
  *  @param length       [in]      of the step, unit s
  *  @param displacement [in]      by which it moves on, unit m
  *  @param after        [in]      time after which it rests, unit s */
-bool mor_sleep_body_rests(double *rest, const double *const places[3], double length, double displacement,
+bool mor_sleep_body_rests(double *rest, const double *const *places, int n_places, double length, double displacement,
                           double after);
 
 /** Takes no cluster for held, and none for one at bodies: their lists are built anew. */

@@ -198,7 +198,7 @@ static int count_rests(double speed, double spin)
         const double first[3] = {x, 0.0, 0.0};
         const double middle[3] = {x + arm[0], arm[1], 0.0};
         const double last[3] = {x - arm[0], -arm[1], 0.0};
-        n += mor_sleep_body_rests(rest, (const double *const[]){first, middle, last}, 0.125, 0.02, 1.0);
+        n += mor_sleep_body_rests(rest, (const double *const[]){first, middle, last}, 3, 0.125, 0.02, 1.0);
     }
     return n;
 }
@@ -212,6 +212,44 @@ static void a_body_that_creeps_moves_on_in_the_end(void **state)
     assert_in_range(count_rests(1e-3, 0.0), 800 - 5 * 8 - 1, 800 - 5 * 8);
     assert_in_range(count_rests(0.0, 1e-3), 800 - 5 * 8 - 1, 800 - 5 * 8);
     assert_int_equal(count_rests(0.1, 0.0), 0); /* 20 mm in 0.2 s, never still for 1 s */
+}
+
+/* Likewise of a wall of 500 points in a row that is held at its ends and its middle, and whose upper half is bent by
+ * 1 mm/s at most. */
+static int count_rests_of_bent_wall(bool is_deformable)
+{
+    double places[500][3];
+    double rest[MOR_SLEEP_REST] = {0.0};
+    int64_t points[MOR_SLEEP_SAMPLES];
+    const double *followed[MOR_SLEEP_SAMPLES];
+    int n = 0;
+    const int n_points = mor_sleep_pick_points(500, is_deformable, points);
+    for (int step = 1; step <= 800; ++step) {
+        for (int k = 0; k < 500; ++k) {
+            places[k][0] = k > 250 && k < 499 ? 1e-3 * 0.125 * step * sin(acos(-1.0) * (k - 250) / 249.0) : 0.0;
+            places[k][1] = 1e-2 * k;
+            places[k][2] = 1.0;
+        }
+        for (int k = 0; k < n_points; ++k) {
+            followed[k] = places[points[k]];
+        }
+        n += mor_sleep_body_rests(rest, followed, n_points, 0.125, 0.02, 1.0);
+    }
+    return n;
+}
+
+/* A body that deforms is followed all over: a part that creeps wakes the soil, wherever it is. */
+static void a_wall_that_bends_slowly_moves_on(void **state)
+{
+    int64_t points[MOR_SLEEP_SAMPLES];
+    (void)state;
+    /* It moves on after some 20, 40, 60, 80 and perhaps 100 s, as that which goes at 1 mm/s. */
+    assert_in_range(count_rests_of_bent_wall(true), 800 - 5 * 8 - 1, 800 - 4 * 8);
+    assert_int_equal(count_rests_of_bent_wall(false), 800 - 8); /* three points of it do not see that */
+    for (int64_t n = 0; n < 40; ++n) {
+        const int n_points = mor_sleep_pick_points(n, true, points);
+        assert_true(n == 0 ? n_points == 0 : points[0] == 0 && points[n_points - 1] == n - 1);
+    }
 }
 
 enum { MANY = 203 };
@@ -262,6 +300,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(cluster_sleeps_where_all_particles_in_reach_are_quiet, open_row, close_row),
         cmocka_unit_test_setup_teardown(cluster_beside_something_that_moves_is_awake, open_row, close_row),
         cmocka_unit_test(a_body_that_creeps_moves_on_in_the_end),
+        cmocka_unit_test(a_wall_that_bends_slowly_moves_on),
         cmocka_unit_test(clusters_are_visited_once_those_that_sleep_apart),
         cmocka_unit_test(particles_end_where_sleep_does_or_the_range),
         cmocka_unit_test_setup_teardown(cluster_is_held_from_the_second_step_of_sleep_on, open_row, close_row),
