@@ -118,6 +118,7 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
 {
     const double length = job->step->length;
     const bool is_corrected = mor_soil_corrects_gradient(job->soil);
+    const double none[MOR_CONTACT_POWERS] = {0.0};
     double stress[N_STRESSES][BATCH * 6];
     double stored[N_STRESSES][BATCH];
     double middle[BATCH * 6];
@@ -137,7 +138,9 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
     for (int64_t i = 0; i < n; ++i) {
         const double volume = job->records[(first + i) * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];
         const double work = mor_soil_stress_power(middle + 6 * i, job->velocity_gradient + 9 * (first + i));
-        const double *strained = job->soil->energy->scratch + MOR_CONTACT_POWERS * (first + i); /* by boundaries */
+        const double *strained = /* by boundaries */
+            mor_soil_is_asleep(job->soil, first + i) ? none
+                                                     : job->soil->energy->scratch + MOR_CONTACT_POWERS * (first + i);
         const double spread = (stored[HIGH][i] - stored[LOW][i]) / length;
         const double restored =
             mor_symmetric_trace(middle + 6 * i) / 3.0 * job->soil->energy->restored[first + i] / length;

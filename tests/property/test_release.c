@@ -132,6 +132,28 @@ static void soil_that_is_not_released_stands_beside_soil_that_flows(void **state
     scene_free(it);
 }
 
+/* What presses on soil that stands does work at its face, which is lost, and none inside of it. */
+static void soil_that_is_not_released_is_not_strained(void **state)
+{
+    static const char *const pressed[] = {
+        "soil[0].released=1 s", "numerics.scheme=zhang2024",
+        "walls=({name=\"floor\"; friction=\"rough\"; shape={type=\"half_space\"; point=(0, 0); normal=(0, 1);};}, "
+        "{name=\"piston\"; friction=\"rough\"; velocity=(0.5, 0); "
+        "shape={type=\"box\"; min=(-0.2, 0); max=(-0.001, 0.5);};})",
+        NULL};
+    (void)state;
+    scene *it = open(one_column, pressed, 2);
+    scene_advance(it, 0.02);
+    const mor_soil *soil = &it->simulation.soil;
+    assert_true(soil->wall_force[1][0] < -100.0); /* N/m; of the soil on the piston, against its way */
+    const double given = -mor_soil_energy_taken(soil, MOR_SOIL_ENERGY_DRIVEN);
+    assert_true(given > 1.0); /* J/m, by the piston */
+    scene_expect_near("lost at its face, J/m", mor_soil_energy_taken(soil, MOR_SOIL_ENERGY_BOUNDARY), given,
+                      1e-9 * given); /* rounding */
+    scene_expect_near("balance of energy", scene_probe(it, "balance"), 1.0, 1e-9);
+    scene_free(it);
+}
+
 /* Force of walls along x on soil that is computed. */
 static double find_wall_force(const scene *it)
 {
@@ -203,6 +225,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(column_released_later_moves_as_one_released_at_the_start),
         cmocka_unit_test(soil_that_is_not_released_stands_beside_soil_that_flows),
+        cmocka_unit_test(soil_that_is_not_released_is_not_strained),
         cmocka_unit_test(momentum_given_to_soil_that_stands_is_accounted_for),
         cmocka_unit_test(release_depends_neither_on_threads_nor_on_when_lists_were_built),
     };

@@ -56,9 +56,8 @@ static mor_status check_options(mor_context *context, const mor_session_safety *
 static mor_status split_spacings(mor_context *context, const char *text, level *levels, int *n)
 {
     *n = 1;
-    memset(levels, 0, SPACINGS_MAX * sizeof *levels);
     for (int k = 0; k < SPACINGS_MAX; ++k) {
-        levels[k].band = (mor_safety_band){.stable = NAN, .fails = NAN};
+        levels[k] = (level){.band = {.stable = NAN, .fails = NAN}}; /* not computed yet */
     }
     if (text == NULL) {
         return MOR_OK;
@@ -236,8 +235,7 @@ static mor_status write_levels(mor_session *session, const level *levels, int n,
 static mor_status draw_levels(mor_session *session, const level *levels, int n, const char *folder)
 {
     mor_context *context = &session->context;
-    double x[SPACINGS_MAX];
-    double y[2][SPACINGS_MAX];
+    double x[SPACINGS_MAX], y[2][SPACINGS_MAX];
     char path[MOR_PATH_BYTES];
     mor_canvas *canvas = NULL;
     int n_points = 0;
