@@ -29,8 +29,9 @@ mor_status mor_soil_allocate_images(mor_context *context, mor_soil *soil)
                   "found a period of %g m along %c; allowed are at least %.4g m, twice the reach of the neighbor lists",
                   soil->period.length[a], "xyz"[a], least);
     }
-    MOR_CHECK(context, s->placement == NULL && s->scheme.sleep_after == 0.0, MOR_ERROR_CONFIG,
-              "found a periodic domain that is placed, or whose soil may sleep; allowed is neither; take one of both");
+    MOR_CHECK(context, s->placement == NULL, MOR_ERROR_CONFIG,
+              "found a periodic domain that is rotated or translated by a placement; allowed is one of both; leave the "
+              "period or the placement out");
     const int64_t n = soil->set.n_particles;
     MOR_TRY(context, MOR_NEW(context, &soil->image_stress, s->scheme.artificial_stress ? 6 * n : 0, "images"));
     MOR_TRY(context, MOR_NEW(context, &soil->image_strains, s->scheme.reconstruction == 1 ? 6 * n : 0, "images"));

@@ -32,10 +32,7 @@ mor_status mor_soil_init_sleep(mor_context *context, mor_soil *soil, int64_t n_p
 {
     const mor_soil_settings *settings = &soil->settings;
     const int n_regions = settings->n_regions > 1 ? settings->n_regions : 1;
-    bool is_held = false;
-    for (int k = 0; k < n_regions && k < MOR_HOLD_REGIONS_MAX; ++k) {
-        is_held = is_held || settings->released[k] > 0.0;
-    }
+    const bool is_held = mor_soil_find_release(settings) > 0.0;
     MOR_TRY(context, mor_soil_check_sleep(context, settings));
     if (is_held) {
         MOR_TRY(context, mor_hold_init(context, &soil->hold, n_particles, settings->released, n_regions));

@@ -84,6 +84,34 @@ double mor_soil_kind_find_across(mor_guard guard, const mor_material_instance *m
     return job.across;
 }
 
+double mor_soil_find_release(const mor_soil_settings *settings)
+{
+    double latest = settings->released[0];
+    for (int k = 1; k < settings->n_regions && k < MOR_HOLD_REGIONS_MAX; ++k) {
+        latest = fmax(latest, settings->released[k]);
+    }
+    return latest;
+}
+
+/* Lists of clusters that sleep are of clusters of the soil, not of images of it. */
+static mor_status check_period(mor_context *context, const mor_soil_settings *settings)
+{
+    const double after = settings->scheme.sleep_after;
+    const double released = mor_soil_find_release(settings);
+    if (!settings->is_periodic[0] && !settings->is_periodic[1] && !settings->is_periodic[2]) {
+        return MOR_OK;
+    }
+    MOR_CHECK(context, after == 0.0, MOR_ERROR_CONFIG,
+              "found a periodic domain with soil that may sleep, sleep_after = %g s; allowed is one of both, for soil "
+              "that sleeps is not continued beyond a periodic face; leave sleep_after or the period out",
+              after);
+    MOR_CHECK(context, !(released > 0.0), MOR_ERROR_CONFIG,
+              "found a periodic domain with soil that is released at %g s; allowed is one of both, for soil that "
+              "stands is not continued beyond a periodic face; release it at the start, or leave the period out",
+              released);
+    return MOR_OK;
+}
+
 mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings)
 {
     const mor_scheme *scheme = &settings->scheme;
@@ -94,5 +122,5 @@ mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *s
         "found numerics.sleep_after = %g s; allowed: 0, or at least %.3g s, %d times as long as soil that begins to "
         "fall stays slower than sleep_speed: it would fall asleep in the air; give a longer time",
         scheme->sleep_after, least, FALLS);
-    return MOR_OK;
+    return check_period(context, settings);
 }

@@ -73,7 +73,12 @@ void mor_soil_kind_find_rest(const mor_soil_kind *kind, double gravity, const do
 double mor_soil_kind_find_across(mor_guard guard, const mor_material_instance *material, int index,
                                  const mor_soil_kind *kind);
 
-/** Checks that soil which begins to fall does not fall asleep before it moves.
+/** Returns the latest time at which a region of the soil is released, unit s; 0: all is from the start.
+ *  @param settings [in]  of the soil */
+double mor_soil_find_release(const mor_soil_settings *settings);
+
+/** Checks that soil which begins to fall does not fall asleep before it moves, and that soil that may sleep or is
+ *  released later is in no scheme or domain that does not go with it.
  *  @param settings [in]  of the soil
  *  Returns: MOR_OK; MOR_ERROR_CONFIG. */
 mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings);
