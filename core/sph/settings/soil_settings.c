@@ -112,6 +112,26 @@ static mor_status check_period(mor_context *context, const mor_soil_settings *se
     return MOR_OK;
 }
 
+/* XSPH and shifting move particles by their neighbors, whether or not they stand still. */
+static mor_status check_regularization(mor_context *context, const mor_soil_settings *settings)
+{
+    const mor_scheme *scheme = &settings->scheme;
+    const char *name = scheme->shifting ? "shifting" : "xsph";
+    const double released = mor_soil_find_release(settings);
+    if (!scheme->shifting && !(scheme->xsph > 0.0)) {
+        return MOR_OK;
+    }
+    MOR_CHECK(context, scheme->sleep_after == 0.0, MOR_ERROR_CONFIG,
+              "found %s with soil that may sleep, sleep_after = %g s; allowed is one of both, for %s moves soil that "
+              "sleeps; leave sleep_after or %s out",
+              name, scheme->sleep_after, name, name);
+    MOR_CHECK(context, !(released > 0.0), MOR_ERROR_CONFIG,
+              "found %s with soil that is released at %g s; allowed is one of both, for %s moves soil that stands; "
+              "release it at the start, or leave %s out",
+              name, released, name, name);
+    return MOR_OK;
+}
+
 mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *settings)
 {
     const mor_scheme *scheme = &settings->scheme;
@@ -122,5 +142,6 @@ mor_status mor_soil_check_sleep(mor_context *context, const mor_soil_settings *s
         "found numerics.sleep_after = %g s; allowed: 0, or at least %.3g s, %d times as long as soil that begins to "
         "fall stays slower than sleep_speed: it would fall asleep in the air; give a longer time",
         scheme->sleep_after, least, FALLS);
+    MOR_TRY(context, check_regularization(context, settings));
     return check_period(context, settings);
 }

@@ -43,6 +43,24 @@ static void soil_that_stands_still_is_refused_in_a_periodic_domain(void **state)
     expect_none(&settings);
 }
 
+static void soil_that_stands_still_is_refused_with_what_moves_it(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; ++k) {
+        mor_soil_settings settings = {.spacing = 0.1, .gravity = {0.0, 0.0, -9.81}};
+        settings.scheme.xsph = k == 0 ? 0.1 : 0.0;
+        settings.scheme.shifting = k == 1;
+        expect_none(&settings);
+        settings.released[0] = 0.5;
+        expect_refusal(&settings, k == 0 ? "found xsph with soil that is released at 0.5 s"
+                                         : "found shifting with soil that is released at 0.5 s");
+        settings.released[0] = 0.0;
+        settings.scheme.sleep_after = 1.0;
+        expect_refusal(&settings, k == 0 ? "found xsph with soil that may sleep, sleep_after = 1 s"
+                                         : "found shifting with soil that may sleep, sleep_after = 1 s");
+    }
+}
+
 static void release_is_that_of_the_last_region(void **state)
 {
     (void)state;
@@ -56,6 +74,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(soil_that_stands_still_is_refused_in_a_periodic_domain),
+        cmocka_unit_test(soil_that_stands_still_is_refused_with_what_moves_it),
         cmocka_unit_test(release_is_that_of_the_last_region),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
