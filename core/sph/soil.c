@@ -409,6 +409,13 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     MOR_CHECK(context, soil->n_walls < MOR_SOIL_WALLS_MAX, MOR_ERROR_ARGUMENT,
               "wall '%s' is one too many; at most %d walls are allowed: join some with a union", request->name,
               MOR_SOIL_WALLS_MAX);
+    MOR_CHECK(context,
+              request->source == NULL || soil->sleep.states == NULL || request->motion == NULL ||
+                  !mor_motion_rotates(request->motion),
+              MOR_ERROR_ARGUMENT,
+              "wall '%s' rotates and is filled where soil is near alone, beside soil that may sleep or is released "
+              "later; such a wall must hold all its particles: leave its source out",
+              request->name);
     MOR_TRY(context,
             mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
     mor_soil_contact_number(soil->walls, soil->n_walls, 0);

@@ -147,7 +147,8 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
 void mor_soil_clear(mor_context *context, mor_soil *soil);
 
 /** Adds a wall.
- *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many; MOR_ERROR_MEMORY. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT when there are too many, or for a wall with a source that rotates beside soil
+ *  that may sleep or is released later; MOR_ERROR_MEMORY. */
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request);
 
 /** Fills the walls that hold particles where soil is near alone, and forgets where all of them would be, as the lists
