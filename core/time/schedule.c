@@ -270,6 +270,11 @@ static mor_status run_leaders(mor_context *context, const mor_schedule *schedule
 mor_status mor_schedule_step(mor_context *context, mor_schedule *schedule, int64_t until)
 {
     int64_t ticks = 0;
+    MOR_CHECK(
+        context, until > schedule->now, MOR_ERROR_ARGUMENT,
+        "a step that ends by t = %.9g s (tick %lld) was asked for at t = %.9g s (tick %lld); its end must be later "
+        "than that: take no step, or extend the end of the run first",
+        (double)until * schedule->tick, (long long)until, mor_schedule_time(schedule), (long long)schedule->now);
     MOR_TRY(context, propose_step(context, schedule, &ticks));
     const int64_t left = until - schedule->now;
     if (ticks >= left) {

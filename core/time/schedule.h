@@ -86,7 +86,8 @@ double mor_schedule_time(const mor_schedule *schedule);
 /** Takes one common step, not beyond a given tick. Two steps of equal length are taken where one and a crumb would be
  *  needed.
  *  @param until    [in]      tick not to be passed, > now
- *  Returns: MOR_OK; MOR_ERROR_NUMERIC when the step collapses, naming what limits it; what a stage returns. */
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT unless until > now; MOR_ERROR_NUMERIC when the step collapses, naming what
+ *  limits it; what a stage returns. */
 mor_status mor_schedule_step(mor_context *context, mor_schedule *schedule, int64_t until);
 
 #endif

@@ -279,6 +279,23 @@ static void failures_reach_the_caller_and_leave_the_clock(void **state)
     assert_int_equal(w.n_steps, 0);
 }
 
+static void step_that_ends_before_it_begins_is_refused(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_schedule schedule;
+    walker w;
+    start(&context, &schedule, &w, 1.0, 0.25);
+    assert_int_equal(mor_schedule_step(&context, &schedule, schedule.end), MOR_OK);
+    const int64_t now = schedule.now;
+    for (int64_t until = now - 1; until <= now; ++until) {
+        assert_int_equal(mor_schedule_step(&context, &schedule, until), MOR_ERROR_ARGUMENT);
+        assert_non_null(strstr(context.message, "was asked for at t = 0.25 s"));
+        assert_true(schedule.now == now && w.n_steps == 1);
+    }
+    assert_int_equal(mor_schedule_step(&context, &schedule, now + 1), MOR_OK);
+}
+
 static void stepper_is_checked_before_it_is_added(void **state)
 {
     (void)state;
@@ -331,6 +348,7 @@ int main(void)
         cmocka_unit_test(collapse_is_reported_and_leaves_the_clock),
         cmocka_unit_test(shortest_proposal_wins_and_is_named),
         cmocka_unit_test(failures_reach_the_caller_and_leave_the_clock),
+        cmocka_unit_test(step_that_ends_before_it_begins_is_refused),
         cmocka_unit_test(stepper_is_checked_before_it_is_added),
         cmocka_unit_test(claims_about_the_exchange_are_checked),
     };
