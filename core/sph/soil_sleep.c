@@ -73,9 +73,9 @@ mor_status mor_soil_hold(mor_context *context, void *owner, mor_view *view, cons
     }
     /* Of the two steps beside a time of release the nearer one is the first. */
     const double time = soil->is_settling || soil->is_relaxing ? INFINITY : step->time + 0.5 * step->length;
-    mor_hold_find(hold, mor_soil_read_region(soil, view), soil->set.n_particles, time);
+    MOR_TRY(context, mor_hold_find(context, hold, &soil->set, mor_soil_read_region(soil, view), time));
     if (context->is_checked) {
-        MOR_TRY(context, mor_hold_check(context, hold, mor_view_read(view, MOR_FIELD_VELOCITY), soil->set.n_particles));
+        MOR_TRY(context, mor_hold_check(context, hold, &soil->set, mor_view_read(view, MOR_FIELD_VELOCITY)));
     }
     return mor_hold_keep(context, hold, arrays, list_standing(soil, data, state, arrays));
 }

@@ -50,29 +50,36 @@ static void list_cluster(mor_hold *hold, int64_t cluster, int64_t first, int64_t
     }
 }
 
-void mor_hold_find(mor_hold *hold, const double *region, int64_t n_particles, double time)
+mor_status mor_hold_find(mor_context *context, mor_hold *hold, const mor_set *set, const double *region, double time)
 {
+    const int64_t n_particles = set->n_particles;
     bool is_any = false;
     for (int k = 0; k < hold->n_regions; ++k) {
         is_any = is_any || time < hold->released[k];
     }
     if (!is_any && hold->n_held == 0) {
-        return; /* the flags are zero already */
+        return MOR_OK; /* the flags are zero already */
     }
     hold->n_held = 0;
     hold->n_mixed = 0;
     for (int64_t i = 0; i < n_particles; ++i) {
-        hold->is_held[i] = (int8_t)(time < hold->released[region != NULL ? (int)region[i] : 0]);
+        const double number = region != NULL ? region[i] : 0.0;
+        MOR_CHECK(context, number >= 0.0 && number < hold->n_regions, MOR_ERROR_ARGUMENT,
+                  "particle %lld of set '%s' is of soil region %g; allowed are 0 to %d, of which each has a time of "
+                  "release: correct its region, or the number of regions in the settings of the soil",
+                  (long long)set->id[i], set->name, number, hold->n_regions - 1);
+        hold->is_held[i] = (int8_t)(time < hold->released[(int)number]);
     }
     for (int64_t cluster = 0; cluster < count_clusters(n_particles); ++cluster) {
         const int64_t last = (cluster + 1) * MOR_CLUSTER;
         list_cluster(hold, cluster, cluster * MOR_CLUSTER, last < n_particles ? last : n_particles);
     }
+    return MOR_OK;
 }
 
-mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const double *velocity, int64_t n_particles)
+mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const mor_set *set, const double *velocity)
 {
-    for (int64_t i = 0; i < n_particles && hold->n_held > 0; ++i) {
+    for (int64_t i = 0; i < set->n_particles && hold->n_held > 0; ++i) {
         const double *v = velocity + 3 * i;
         MOR_CHECK(context, !hold->is_held[i] || (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0), MOR_ERROR_INTERNAL,
                   "particle %lld of soil that is not released has a velocity of (%.4g, %.4g, %.4g) m/s", (long long)i,

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_SLEEP_HOLD_H
 #define MOR_CORE_SPH_SLEEP_HOLD_H
 
+#include "core/particle/set.h"
 #include "core/sph/sleep/sleep.h"
 
 /** @file
@@ -44,16 +45,17 @@ mor_status mor_hold_init(mor_context *context, mor_hold *hold, int64_t n_particl
 void mor_hold_clear(mor_context *context, mor_hold *hold);
 
 /** Finds the particles that are held at a time.
- *  @param region      [in]  shape [n_particles], number of the region of each, 1; NULL: one region
- *  @param n_particles [in]  number of particles
- *  @param time        [in]  unit s; infinite: none is held */
-void mor_hold_find(mor_hold *hold, const double *region, int64_t n_particles, double time);
+ *  @param set    [in]  of the particles
+ *  @param region [in]  shape [n_particles], number of the region of each, 1; NULL: one region
+ *  @param time   [in]  unit s; infinite: none is held
+ *  Returns: MOR_OK; MOR_ERROR_ARGUMENT for a particle of a region without a time of release. */
+mor_status mor_hold_find(mor_context *context, mor_hold *hold, const mor_set *set, const double *region, double time);
 
 /** Checks that no particle that is held has a velocity, which would carry it along.
- *  @param velocity    [in]  shape [n_particles, 3], unit m/s
- *  @param n_particles [in]  number of particles
+ *  @param set      [in]  of the particles
+ *  @param velocity [in]  shape [n_particles, 3], unit m/s
  *  Returns: MOR_OK; MOR_ERROR_INTERNAL. */
-mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const double *velocity, int64_t n_particles);
+mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const mor_set *set, const double *velocity);
 
 /** Keeps values of held particles in clusters with other soil.
  *  @param arrays   [in]  shape [n_arrays]

@@ -121,6 +121,8 @@ static mor_status create_materials(mor_context *context, mor_simulation *simulat
     return mor_checked_wrap(context, &simulation->material);
 }
 
+_Static_assert((int)MOR_CASE_SOILS_MAX <= (int)MOR_HOLD_REGIONS_MAX, "each soil of a case has its time of release");
+
 static void set_settings(const mor_simulation *simulation, mor_soil_kind *kinds, mor_soil_settings *s)
 {
     const mor_case *c = simulation->the_case;
