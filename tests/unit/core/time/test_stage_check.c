@@ -52,7 +52,8 @@ static void open_block(proof *it, bool is_checked, const char *stage, const mor_
     scene->settings.scheme.density_reinitialization = 1;
     scene->settings.scheme.sort_interval = 1;
     scene->settings.gravity[1] = -9.81;
-    scene->settings.released[1] = stage != NULL && (strcmp(stage, "hold") == 0 || strcmp(stage, "stand") == 0);
+    scene->settings.released[1] =
+        stage != NULL && (strcmp(stage, "hold") == 0 || strcmp(stage, "stand") == 0 || strcmp(stage, "memory") == 0);
     scene->settings.n_regions = 2; /* of one material: all particles are of the first */
     rock_scene_add_soil(scene, (const double[3]){0.005, 0.005, 0.0}, sides);
     rock_scene_build(scene);
@@ -135,6 +136,25 @@ static void checked_run_passes_and_changes_no_bit(void **state)
     (void)state;
     assert_true(hash_after_steps(true, NULL) == hash_after_steps(false, NULL));
     assert_true(hash_after_steps(true, "regularization") == hash_after_steps(false, "regularization"));
+}
+
+/* Half of the block stands until it is released: stages that find something for the soil that is computed alone keep to
+ * what they declare, with forces without a moment by the present motion (first) and by that of the last step. */
+static void checked_run_passes_with_soil_that_stands(void **state)
+{
+    static const char *const stages[] = {"hold", "memory"};
+    (void)state;
+    for (size_t k = 0; k < sizeof stages / sizeof *stages; ++k) {
+        proof it;
+        open_block(&it, true, stages[k], NULL);
+        mor_soil *soil = &it.scene.soil;
+        for (int64_t i = 0; i < soil->set.n_particles; ++i) {
+            soil->set.data[soil->region_field][i] = i >= SIDE * SIDE / 2;
+        }
+        rock_scene_require(&it.scene, take_steps(&it, STEPS));
+        assert_true(soil->hold.n_held > 0 && soil->sleep.n_asleep > 0);
+        rock_scene_close(&it.scene);
+    }
 }
 
 /* Whatever bit is taken out of the declaration of a stage of soil: the stage reaches for it, and is named. This holds
@@ -352,6 +372,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(checked_run_passes_and_changes_no_bit),
+        cmocka_unit_test(checked_run_passes_with_soil_that_stands),
         cmocka_unit_test(every_declared_bit_of_soil_is_needed),
         cmocka_unit_test(undeclared_access_through_the_view_is_named),
         cmocka_unit_test(undeclared_writing_past_the_view_is_named),
