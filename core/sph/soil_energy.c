@@ -95,8 +95,7 @@ double mor_soil_stress_power(const double *stress, const double *gradient)
            stress[MOR_YZ] * (l[5] + l[7]) + stress[MOR_ZX] * (l[2] + l[6]);
 }
 
-/* Stored energy of n stresses by the material, J/m3; NaN when it has no energy operation. */
-static void find_stored(const mor_soil_powers *job, int64_t first, int64_t n, const double *stress, double *stored)
+void mor_soil_find_stored(const mor_soil_powers *job, int64_t first, int64_t n, const double *stress, double *stored)
 {
     const mor_soil *soil = job->soil;
     const double *state[MOR_MATERIAL_STATES_MAX];
@@ -133,7 +132,7 @@ static void find_stress_batch(const mor_soil_powers *job, int64_t first, int64_t
         stress[HIGH][k] = middle[k] + half;
     }
     for (int s = 0; s < N_STRESSES; ++s) {
-        find_stored(job, first, n, stress[s], stored[s]);
+        mor_soil_find_stored(job, first, n, stress[s], stored[s]);
     }
     for (int64_t i = 0; i < n; ++i) {
         const double volume = job->records[(first + i) * MOR_RECORD_SIZE + MOR_RECORD_VOLUME];

@@ -205,9 +205,10 @@ double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
     FIELD(POSITION)                                                                                                    \
     FIELD(VELOCITY)                                                                                                    \
     FIELD(DENSITY)                                                                                                     \
-    FIELD(DENSITY_RATE) FIELD(STRESS) FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS)               \
-        FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH)     \
-            FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
+    FIELD(DENSITY_RATE)                                                                                                \
+    FIELD(STRESS) FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT)           \
+        FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET)                \
+            FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
 
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)
@@ -252,7 +253,7 @@ static inline const double *mor_soil_read_region(const mor_soil *soil, mor_view 
 void mor_soil_run_pairs(mor_context *context, const mor_pair_constants *constants, const mor_pair_arrays *arrays,
                         mor_pair_loop loop);
 
-/** What the audit reads; NULL what the stage does not declare. */
+/** What energies are found from; NULL what the stage does not declare. */
 typedef struct mor_soil_powers {
     mor_soil *soil;
     const mor_step *step;
@@ -267,6 +268,12 @@ typedef struct mor_soil_powers {
     const double *state[MOR_MATERIAL_STATES_MAX]; /* state variables of the material */
     const double *region;                         /* shape [n], number of the region, 1; NULL: one region */
 } mor_soil_powers;
+
+/** Finds the stored energy of stresses of the particles [first, first + n) by the material.
+ *  @param job    [in]   soil, density and state are read
+ *  @param stress [in]   shape [n, 6], unit Pa
+ *  @param stored [out]  shape [n], unit J/m3; not a number when the material has no energy operation */
+void mor_soil_find_stored(const mor_soil_powers *job, int64_t first, int64_t n, const double *stress, double *stored);
 
 /** Adds the powers of all particles, block by block, to those of the present sample of the audit.
  *  @param job     [in,out]  of a soil with an audit

@@ -89,38 +89,20 @@ mor_status mor_soil_check_domain(mor_context *context, mor_soil *soil, mor_view 
     return stray < 0 ? MOR_OK : check_particles(context, soil, &job, view, step, stray);
 }
 
-/* Fields from which mass, momentum and energy of the particles that leave are read. */
-typedef struct outflow_fields {
-    const double *position, *velocity, *mass, *density, *stress;
-    const double *state[MOR_MATERIAL_STATES_MAX];
-} outflow_fields;
-
-/* Stored energy of a particle by the material's own operation; NaN when the model has no energy operation. */
-static double find_stored(const mor_soil *soil, const outflow_fields *from, int64_t i)
-{
-    const double *state[MOR_MATERIAL_STATES_MAX];
-    double stored = NAN;
-    for (int k = 0; k < soil->material->n_state; ++k) {
-        state[k] = from->state[k] + i * soil->set.fields[soil->state_fields[k]].n_components;
-    }
-    const mor_batch batch = {
-        .n = 1, .density = from->density + i, .stress_in = from->stress + 6 * i, .state_in = state};
-    const mor_status status = soil->material->operations.energy(soil->material, &batch, &stored);
-    return status == MOR_OK ? stored * from->mass[i] / from->density[i] : NAN;
-}
-
 /* Adds mass, momentum and energy of a particle. */
-static void count_out(mor_soil *soil, const outflow_fields *from, int64_t i)
+static void count_out(mor_soil *soil, const mor_soil_powers *from, int64_t i)
 {
     const double mass = from->mass[i];
+    double stored = NAN;
     const double *v = from->velocity + 3 * i;
     double *out = soil->outflow;
     double x[3];
     mor_soil_find_unwrapped(soil, i, x);
+    mor_soil_find_stored(from, i, 1, from->stress + 6 * i, &stored);
     soil->n_outflow += 1;
     out[MOR_SOIL_OUTFLOW_MASS] += mass;
     out[MOR_SOIL_OUTFLOW_KINETIC] += 0.5 * mass * mor_vector_dot(v, v);
-    out[MOR_SOIL_OUTFLOW_ELASTIC] += find_stored(soil, from, i);
+    out[MOR_SOIL_OUTFLOW_ELASTIC] += stored * mass / from->density[i];
     for (int a = 0; a < 3; ++a) {
         out[MOR_SOIL_OUTFLOW_MOMENTUM + a] += mass * v[a];
         out[MOR_SOIL_OUTFLOW_MOMENT + a] += mass * x[a];
@@ -144,15 +126,17 @@ mor_status mor_soil_remove_outflow(mor_context *context, void *owner, mor_view *
     if (!soil->has_outflow) {
         return MOR_OK;
     }
-    outflow_fields from = {.position = mor_view_read(view, MOR_FIELD_POSITION),
-                           .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
-                           .mass = mor_view_read(view, MOR_FIELD_MASS),
-                           .density = mor_view_read(view, MOR_FIELD_DENSITY),
-                           .stress = mor_view_read(view, MOR_FIELD_STRESS)};
+    const double *position = mor_view_read(view, MOR_FIELD_POSITION);
+    mor_soil_powers from = {.soil = soil,
+                            .step = step,
+                            .velocity = mor_view_read(view, MOR_FIELD_VELOCITY),
+                            .mass = mor_view_read(view, MOR_FIELD_MASS),
+                            .density = mor_view_read(view, MOR_FIELD_DENSITY),
+                            .stress = mor_view_read(view, MOR_FIELD_STRESS)};
     mor_view_read_state(view, soil->state_fields, soil->material->n_state, from.state);
     int32_t *removed = mor_view_write_shared(view, MOR_RESOURCE_ORDER, soil->order);
     for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        if (!is_inside(&soil->settings, from.position + 3 * i)) {
+        if (!is_inside(&soil->settings, position + 3 * i)) {
             removed[n_out++] = (int32_t)i;
         }
     }
