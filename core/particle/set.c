@@ -12,14 +12,18 @@
 /* Room behind the last particle, so that vector code may read whole clusters. */
 enum { PADDING = 8 };
 
+/* Particles of a set: indices and sums of a few of them are 32-bit numbers. */
+enum { LARGEST = INT32_MAX - 65 };
+
 /* Components and bytes of the widest field. */
 enum { COMPONENTS_MAX = 9, FIELD_BYTES_MAX = COMPONENTS_MAX * sizeof(double) };
 
 mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, int64_t n_particles, uint64_t field_mask)
 {
     memset(set, 0, sizeof *set);
-    MOR_CHECK(context, n_particles >= 0 && n_particles < INT32_MAX - 64, MOR_ERROR_ARGUMENT,
-              "a set of %lld particles was asked for; at most %d are allowed", (long long)n_particles, INT32_MAX - 64);
+    MOR_CHECK(context, n_particles >= 0 && n_particles <= LARGEST, MOR_ERROR_ARGUMENT,
+              "set '%s' was asked for with %lld particles; allowed are 0 to %d: take a larger spacing", name,
+              (long long)n_particles, LARGEST);
     strncpy(set->name, name, sizeof set->name - 1);
     set->n_particles = n_particles;
     set->n_created = n_particles;

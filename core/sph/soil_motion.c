@@ -5,9 +5,9 @@
 
 #include "core/base/math.h"
 #include "core/base/parallel.h"
-#include "core/material/checked.h"
 #include "core/particle/kernel.h"
 #include "core/sph/pair/pair_pack.h"
+#include "core/sph/stress/law_report.h"
 
 #include <string.h>
 
@@ -155,11 +155,8 @@ mor_status mor_soil_pack(mor_context *context, void *owner, mor_view *view, cons
     const mor_blocks blocks = mor_soil_blocks(soil, GRAIN, 4);
     const int64_t chunk = mor_reduce_status(&blocks, context->n_threads, pack_range, &job, soil->room.statuses);
     if (chunk >= 0) {
-        MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time));
-        return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                        "material '%s' gives no pressure for one of particles %lld to %lld of set '%s' at t = %.6g s",
-                        soil->material->material->name, (long long)(chunk * GRAIN),
-                        (long long)((chunk + 1) * GRAIN - 1), soil->set.name, step->time);
+        return mor_law_report(context, soil->material, view, step,
+                              &(mor_law_failure){pack_range, &job, chunk * GRAIN, GRAIN, "pressure"});
     }
     if (soil->extra != NULL) {
         pack_extra(context, soil, view, step);
@@ -220,26 +217,26 @@ static void kick_block(void *job, int64_t first, int64_t last, double *values)
     values[KICK_STRENGTH] = strongest;
 }
 
-/* Names the first particle that is not a number or faster than sound, outside the weakly compressible range. */
-static mor_status report_runaway(mor_context *context, const mor_soil *soil, const mor_view *view, const mor_step *step)
+/* Names the first particle whose motion is not a number or faster than sound, outside the weakly compressible range. */
+static mor_status report_runaway(mor_context *context, const mor_soil *soil, const kick *job, const double *position,
+                                 const mor_step *step)
 {
-    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        const double *v = mor_view_quote(view, MOR_FIELD_VELOCITY, i);
-        const double speed = mor_vector_length(v);
-        if (!(speed < soil->sound_speed)) {
-            const double *x = mor_view_quote(view, MOR_FIELD_POSITION, i);
-            const mor_status status =
-                MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                         "particle %lld of set '%s' has velocity (%.4g, %.4g, %.4g) m/s at (%.6g, %.6g, %.6g) m, "
-                         "t = %.6g s, step %llu; speeds must stay below that of sound, %.4g m/s. A stiffer soil, a "
-                         "smaller 'courant' or a smaller spacing may help",
-                         (long long)soil->set.id[i], soil->set.name, v[0], v[1], v[2], x[0], x[1], x[2],
-                         step->time + step->length, (unsigned long long)step->number, soil->sound_speed);
-            return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
-        }
+    int64_t i = 0;
+    while (i + 1 < soil->set.n_particles && mor_vector_length(job->velocity + 3 * i) < soil->sound_speed &&
+           isfinite(mor_vector_length(job->acceleration + 3 * i))) {
+        ++i;
     }
-    return MOR_FAIL(context, MOR_ERROR_NUMERIC, "an acceleration of set '%s' is not a number at t = %.6g s, step %llu",
-                    soil->set.name, step->time, (unsigned long long)step->number);
+    const double *x = position + 3 * i;
+    const double *v = job->velocity + 3 * i;
+    const double *a = job->acceleration + 3 * i;
+    const mor_status status = MOR_FAIL(
+        context, MOR_ERROR_NUMERIC,
+        "particle %lld of set '%s' has velocity (%.4g, %.4g, %.4g) m/s and acceleration (%.4g, %.4g, %.4g) m/s2 at "
+        "(%.6g, %.6g, %.6g) m, t = %.6g s, step %llu; speeds must stay below that of sound, %.4g m/s, and be numbers. "
+        "A stiffer soil, a smaller 'courant' or a smaller spacing may help; the last snapshot shows what led to it",
+        (long long)soil->set.id[i], soil->set.name, v[0], v[1], v[2], a[0], a[1], a[2], x[0], x[1], x[2],
+        step->time + step->length, (unsigned long long)step->number, soil->sound_speed);
+    return mor_context_name_particle(context, status, soil->set.name, soil->set.id[i]);
 }
 
 static void give_impulse(mor_boundary *boundary, double length)
@@ -274,7 +271,7 @@ mor_status mor_soil_kick(mor_context *context, void *owner, mor_view *view, cons
     soil->largest_acceleration = sqrt(largest[KICK_STRENGTH]);
     mor_soil_follow_records(context, soil);
     if (!(soil->largest_speed < soil->sound_speed) || !isfinite(soil->largest_acceleration)) {
-        return report_runaway(context, soil, view, step);
+        return report_runaway(context, soil, &job, mor_view_quote(view, MOR_FIELD_POSITION, 0), step);
     }
     for (int w = 0; w < soil->n_walls; ++w) {
         for (int a = 0; a < 3; ++a) {

@@ -7,7 +7,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "core/material/checked.h"
+#include "core/sph/stress/law_report.h"
 
 #include <math.h>
 
@@ -147,12 +147,9 @@ mor_status mor_soil_diffuse_fields(mor_context *context, void *owner, mor_view *
         const int64_t failed =
             mor_reduce_status(&blocks, context->n_threads, find_diffusivities, &job, soil->room.statuses);
         if (failed >= 0) {
-            MOR_TRY(context, mor_checked_report(context, soil->material, soil->set.name, step->time));
-            return MOR_FAIL(context, MOR_ERROR_NUMERIC,
-                            "material '%s' gives no diffusivity of its field, positive or zero, for one of the "
-                            "particles %lld to %lld of set '%s' at t = %.6g s",
-                            soil->material->material->name, (long long)(failed * MOR_SOIL_BATCH),
-                            (long long)((failed + 1) * MOR_SOIL_BATCH - 1), soil->set.name, step->time);
+            return mor_law_report(context, soil->material, view, step,
+                                  &(mor_law_failure){find_diffusivities, &job, failed * MOR_SOIL_BATCH, MOR_SOIL_BATCH,
+                                                     "finite diffusivity, positive or zero,"});
         }
         MOR_TRY(context, diffuse(context, &job, &arrays, step));
     }

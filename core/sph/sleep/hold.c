@@ -81,9 +81,16 @@ mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const mor_
 {
     for (int64_t i = 0; i < set->n_particles && hold->n_held > 0; ++i) {
         const double *v = velocity + 3 * i;
-        MOR_CHECK(context, !hold->is_held[i] || (v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0), MOR_ERROR_INTERNAL,
-                  "particle %lld of soil that is not released has a velocity of (%.4g, %.4g, %.4g) m/s", (long long)i,
-                  v[0], v[1], v[2]);
+        if (hold->is_held[i] && (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0)) {
+            const double *x = set->data[MOR_FIELD_POSITION] + 3 * i;
+            const mor_status status =
+                MOR_FAIL(context, MOR_ERROR_INTERNAL,
+                         "particle %lld of set '%s' at (%.6g, %.6g, %.6g) m is not released and has a velocity of "
+                         "(%.4g, %.4g, %.4g) m/s; it must stand. Stop it where it is placed; if that is done, a stage "
+                         "has moved it: please report this",
+                         (long long)set->id[i], set->name, x[0], x[1], x[2], v[0], v[1], v[2]);
+            return mor_context_name_particle(context, status, set->name, set->id[i]);
+        }
     }
     return MOR_OK;
 }

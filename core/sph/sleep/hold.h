@@ -52,7 +52,7 @@ void mor_hold_clear(mor_context *context, mor_hold *hold);
 mor_status mor_hold_find(mor_context *context, mor_hold *hold, const mor_set *set, const double *region, double time);
 
 /** Checks that no particle that is held has a velocity, which would carry it along.
- *  @param set      [in]  of the particles
+ *  @param set      [in]  of the particles, with their positions
  *  @param velocity [in]  shape [n_particles, 3], unit m/s
  *  Returns: MOR_OK; MOR_ERROR_INTERNAL. */
 mor_status mor_hold_check(mor_context *context, const mor_hold *hold, const mor_set *set, const double *velocity);

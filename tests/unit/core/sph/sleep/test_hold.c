@@ -21,7 +21,7 @@ static void soil_that_stands_has_no_velocity(void **state)
     mor_set set;
     (void)state;
     mor_context_init(&context);
-    assert_int_equal(mor_set_init(&context, &set, "sand", N, 0), MOR_OK);
+    assert_int_equal(mor_set_init(&context, &set, "sand", N, (uint64_t)1 << MOR_FIELD_POSITION), MOR_OK);
     for (int i = 0; i < N; ++i) {
         region[i] = i >= 100;
         velocity[3 * i] = i < 100 ? 2.0 : 0.0;
@@ -36,7 +36,10 @@ static void soil_that_stands_has_no_velocity(void **state)
     assert_true(hold.clusters[13] == 1 && hold.clusters[N / MOR_CLUSTER] == 1);
     assert_int_equal(mor_hold_check(&context, &hold, &set, velocity), MOR_OK); /* the others move */
     velocity[3 * 250 + 2] = -1e-300;
+    set.id[250] = 88;
     assert_int_equal(mor_hold_check(&context, &hold, &set, velocity), MOR_ERROR_INTERNAL);
+    assert_non_null(strstr(context.message, "particle 88 of set 'sand'"));
+    assert_int_equal(context.particle, 88);
     assert_int_equal(mor_hold_find(&context, &hold, &set, region, 1.5), MOR_OK);
     assert_int_equal(mor_hold_check(&context, &hold, &set, velocity), MOR_OK); /* it is released */
     mor_hold_clear(&context, &hold);
