@@ -96,7 +96,9 @@ typedef struct mor_contact_soil {
     const double *of_soil;       /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: one material */
     const double *region;        /* shape [n_particles], number of the region a particle is of, 1; NULL: one region */
     const double *records;       /* shape [n_particles padded to 8, 16]; units of MOR_RECORD_... */
-    const double *strain_rate;   /* shape [n_particles, 6], of the last step, 1/s; may be NULL with coulomb_pulls */
+    const double *strain_rate;   /* shape [n_particles, 6], of the last step, 1/s; with a fitted velocity gradient less
+                                  * of it where a particle has few neighbors, see (W3a) of docs/theory/walls.md; else
+                                  * all of it; may be NULL with coulomb_pulls */
     double depth;                /* of a particle of the first layer under the face of the soil, m */
     const double *gap;           /* shape [n_particles, MOR_CONTACT_GAPS]; by how much each has left faces around it
                                   * that only press, (W3b) of docs/theory/walls.md, m; NULL: none is kept */
