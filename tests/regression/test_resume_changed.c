@@ -251,6 +251,38 @@ static void energy_audit_cannot_begin_later(void **state)
     free(text);
 }
 
+/* What looks back to the start has nothing to look back on, whether or not the audit of energy was there. */
+static void probe_of_the_whole_run_cannot_begin_later(void **state)
+{
+    static const char text[] =
+        "dimension = 2; spacing = '10 mm'; end = '20 ms'; gravity = (0, -9.81);"
+        "domain = { min = (-0.1, -0.1); max = (0.4, 0.3); };"
+        "soil = ( { name = 'sand'; shape = { type = 'box'; min = (0, 0); max = (0.1, 0.05); };"
+        "  material = { model = 'drucker_prager'; density = 2000; youngs_modulus = '2 MPa'; poissons_ratio = 0.3;"
+        "    friction_angle = '25 deg'; cohesion = '0.1 kPa'; }; } );"
+        "walls = ( { name = 'floor'; shape = { type = 'half_space'; point = (0, 0); normal = (0, 1); }; } );"
+        "bodies = ( { name = 'rock'; shape = { type = 'sphere'; center = (0.05, 0.1); radius = 0.03; };"
+        "  material = { model = 'rigid'; density = 2600; }; } );"
+        "probes = ( { type = 'plastic_energy'; }%s );"
+        "output = { snapshots = 1; pictures = false; };";
+    static const char *const added[] = {", { type = 'penetration_depth_largest'; body = 'rock'; }",
+                                        ", { type = 'energy_balance'; }"};
+    run_folder *folder = *state;
+    char case_path[MOR_PATH_BYTES];
+    char whole[sizeof text + 64];
+    snprintf(whole, sizeof whole, text, "");
+    finished_run_store_text(folder, whole, case_path);
+    RUN_QUIETLY(folder, "run", "--stop-at", "10 ms");
+    for (int k = 0; k < 2; ++k) {
+        snprintf(whole, sizeof whole, text, added[k]);
+        finished_run_store_text(folder, whole, case_path);
+        program_outcome outcome = RUN(folder, "run", 2, "--resume");
+        program_expect_text(outcome.errors,
+                            "first difference: a probe that looks back to the start among 2, was 1 probes");
+        program_clear(&outcome);
+    }
+}
+
 /* A cube of 1 m whose corners lie in cube.bin. */
 static void store_cube(run_folder *folder, float size)
 {
@@ -344,6 +376,7 @@ int main(void)
         TEST(maps_are_not_moved_by_a_larger_domain),
         TEST(probe_may_be_added),
         TEST(energy_audit_cannot_begin_later),
+        TEST(probe_of_the_whole_run_cannot_begin_later),
         TEST(changed_buffer_of_a_mesh_is_another_case),
         TEST(changed_file_beside_a_raster_is_another_case),
     };

@@ -360,7 +360,7 @@ const mor_probe_measure mor_probe_body_measures[] = {
     {.type = {"penetration_depth", "m", "m", BODY | ORIGIN, BODY, OF_BODIES, 100.0,
               "depth of the lowest point of the surface of a body below origin, along gravity"},
      .run = depth},
-    {.type = {"penetration_depth_largest", "m", "m", BODY | ORIGIN, BODY, OF_BODIES, 100.0,
+    {.type = {"penetration_depth_largest", "m", "m", BODY | ORIGIN, BODY, OF_BODIES | PAST, 100.0,
               "largest penetration_depth since the start"},
      .run = largest_depth,
      .past = depth},

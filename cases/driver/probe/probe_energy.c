@@ -287,7 +287,7 @@ const mor_probe_measure mor_probe_energy_measures[] =
                "work of moving walls, driven bodies and the gravity ramp since the start"},
       .run = external_work},
      {.type =
-          {"energy_balance", "1", "1", 0, 0, AUDIT, 100.0,
+          {"energy_balance", "1", "1", 0, 0, AUDIT | PAST, 100.0,
            "1 + (change of the sum of all energies and losses - external work) / energy converted so far; 1: balanced"},
       .run = energy_balance,
       .past = turned_energy,

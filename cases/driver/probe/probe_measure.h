@@ -83,7 +83,8 @@ typedef struct mor_probe_measure {
     mor_case_probe_type type; /* first: a case points at it */
     /** Writes the value, one number, in the unit of the type. */
     mor_status (*run)(mor_context *context, const mor_probe_view *view, double *value);
-    /** Writes what is recorded over the whole run so that `run` can look back, one number, any unit; NULL: nothing. */
+    /** Writes what is recorded over the whole run so that `run` can look back, one number, any unit; NULL: nothing.
+     *  Goes with the trait MOR_CASE_PROBE_OF_PAST. */
     mor_status (*past)(mor_context *context, const mor_probe_view *view, double *value);
     /** Returns how many doubles `remember` keeps from the start of the run on; NULL: nothing. */
     int64_t (*count)(const mor_probe_view *view);

@@ -321,10 +321,10 @@ static void remember(const mor_context *context, mor_probe_track *track)
     const bool is_start = track->simulation->schedule.n_steps == 0;
     for (int k = 0; k < track->simulation->the_case->n_probes; ++k) {
         mor_probe_view view;
-        if ((traits_of(track->simulation, k) & MOR_CASE_PROBE_OF_PAST) == 0) {
+        mor_probe_view_set(track->simulation, k, &view);
+        if (view.measure->remember == NULL) {
             continue;
         }
-        mor_probe_view_set(track->simulation, k, &view);
         view.points.n_threads = context->n_threads;
         if (is_start) {
             mor_probe_scan_part(&view);

@@ -338,18 +338,18 @@ void mor_case_compare(mor_case_probe_catalog probe_types, const char *given, con
     if (difference->is_found || compare_domain(given, saved, difference) || compare_periods(given, saved, difference)) {
         return;
     }
-    if (has_past) {
-        *difference = (mor_case_difference){
-            .is_found = true,
-            .reason = "; what such a probe tells begins at the start of a run, so that it cannot be added later"};
-        snprintf(difference->found, sizeof difference->found, "a probe that looks back to the start among %d", n_given);
-        snprintf(difference->expected, sizeof difference->expected, "%d probes", n_probes);
-    } else if (has_audit && !had_audit) {
+    if (has_audit && !had_audit) {
         *difference = (mor_case_difference){
             .is_found = true,
             .reason = "; the audit of energy begins at the start of a run, so that such a probe cannot be added later"};
         snprintf(difference->found, sizeof difference->found, "a probe of the audit of energy among %d", n_given);
         snprintf(difference->expected, sizeof difference->expected, "none among %d", n_probes);
+    } else if (has_past) {
+        *difference = (mor_case_difference){
+            .is_found = true,
+            .reason = "; what such a probe tells begins at the start of a run, so that it cannot be added later"};
+        snprintf(difference->found, sizeof difference->found, "a probe that looks back to the start among %d", n_given);
+        snprintf(difference->expected, sizeof difference->expected, "%d probes", n_probes);
     }
 }
 

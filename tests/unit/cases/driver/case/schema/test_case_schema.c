@@ -1,7 +1,7 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
 #include "cases/driver/case/schema/case_schema.h"
-#include "cases/driver/probe/probe.h"
+#include "cases/driver/probe/probe_measure.h"
 #include "core/base/units.h"
 #include "core/material/params.h"
 #include "materials/builtin.h"
@@ -125,6 +125,10 @@ static void the_tables_are_sound(void **state)
         assert_int_equal(mor_case_probe_required(type, 3), type->required);
         const bool is_free_of_axis = (mor_case_probe_required(type, 2) & MOR_CASE_PROBE_DIRECTION) == 0;
         assert_true((type->traits & MOR_CASE_PROBE_OF_ROTATION) == 0 || is_free_of_axis);
+        /* What is recorded from the start on cannot begin later. */
+        const mor_probe_measure *measure = (const mor_probe_measure *)type;
+        const bool looks_back = measure->past != NULL || measure->remember != NULL;
+        assert_int_equal((type->traits & MOR_CASE_PROBE_OF_PAST) != 0, looks_back);
         /* A key that names a body or a wall is never left open. */
         const unsigned named = MOR_CASE_PROBE_BODY | MOR_CASE_PROBE_WALL;
         assert_int_equal(type->allowed & named, type->required & named);
