@@ -63,7 +63,7 @@ static void run_warns_of_speeds_near_that_of_sound(void **state)
     assert_string_equal(outcome.errors, "");
     program_clear(&outcome);
     outcome = program_run(folder, fast, 0);
-    program_expect_text(outcome.errors, "warning: the largest speed was 0.");
+    program_expect_text(outcome.errors, "warning: at the end of the run the largest speed so far was 0.");
     program_expect_text(outcome.errors, "below 0.1 is advisable: raise youngs_modulus");
     program_clear(&outcome);
 }

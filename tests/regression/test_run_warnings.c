@@ -65,6 +65,47 @@ static void warnings_stand_in_the_summary_also_after_a_resume(void **state)
     free(text);
 }
 
+/* Soil thrown at a third of the speed of sound, and how many warnings of that are shown. */
+static int throw_soil(run_folder *folder, const char *run, const char *domain, const char *stop_at, const char *option)
+{
+    char path[MOR_PATH_BYTES];
+    const char *const arguments[] = {
+        "run", path,   "-t",        "1",     "-o",   run, "-s", "soil[0].velocity=(\"12 m/s\", 0)",
+        "-s",  domain, "--stop-at", stop_at, option, NULL};
+    const bool is_failing = strcmp(run, "failed") == 0;
+    finished_run_store_case(folder, path);
+    program_outcome outcome = program_run(folder, arguments, is_failing ? 1 : 0);
+    const int n = count(outcome.errors, "the largest speed so far was 0.");
+    program_clear(&outcome);
+    return n;
+}
+
+/* It is fastest in the first steps: a run that is stopped behind them warns as one that never stops, and so does one
+ * whose soil leaves a smaller domain. */
+static void speeds_before_a_stop_are_warned_of_at_the_end(void **state)
+{
+    static const char large[] = "domain.max[0]=4";
+    run_folder *folder = *state;
+    assert_int_equal(throw_soil(folder, "whole", large, "1", NULL), 1);
+    assert_int_equal(throw_soil(folder, "parts", large, "40 ms", NULL), 0);
+    assert_int_equal(throw_soil(folder, "parts", large, "1", "--resume"), 1);
+    assert_int_equal(throw_soil(folder, "failed", "domain.max[0]=0.3", "1", NULL), 1);
+    char *whole = load_summary(folder, "whole");
+    char *parts = load_summary(folder, "parts");
+    char *failed = load_summary(folder, "failed");
+    char *from = strstr(whole, "\"warnings\": [");
+    assert_non_null(from);
+    char *end = strstr(from, "\n  ]");
+    assert_non_null(end);
+    *end = '\0';
+    program_expect_text(from, "the largest speed so far was 0.");
+    program_expect_text(parts, from);
+    assert_int_equal(count(failed, "the largest speed so far was 0."), 1);
+    free(whole);
+    free(parts);
+    free(failed);
+}
+
 /* A heap that collapses: with shifting its particles crowd where laws do not learn of it, which a warning at the start
  * foretells and one at the end measures, without a probe that asked; without shifting neither is there. */
 static void soil_that_crowds_is_warned_of_at_the_end(void **state)
@@ -301,6 +342,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(run_without_warnings_says_so, run_folder_setup, run_folder_teardown),
         cmocka_unit_test_setup_teardown(warnings_stand_in_the_summary_also_after_a_resume, run_folder_setup,
+                                        run_folder_teardown),
+        cmocka_unit_test_setup_teardown(speeds_before_a_stop_are_warned_of_at_the_end, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(soil_that_crowds_is_warned_of_at_the_end, run_folder_setup,
                                         run_folder_teardown),

@@ -26,8 +26,6 @@ typedef struct loop_state {
     double last_save;      /* wall time of the last checkpoint, s */
     int64_t next_row;      /* number of the next row of the series */
     int64_t next_snapshot; /* number of the next snapshot */
-    double fastest;        /* largest speed of the soil in these steps, m/s */
-    double fastest_time;   /* when that was, s */
 } loop_state;
 
 /* Rows closer together than ticks would be one row per step. */
@@ -107,10 +105,6 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, loop_sta
         MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, p->next_snapshot), &p->loop_seconds));
         p->n_loop_steps += 1;
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
-        if (s->soil.largest_speed > p->fastest) {
-            p->fastest = s->soil.largest_speed;
-            p->fastest_time = mor_schedule_time(&s->schedule);
-        }
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_WRITING);
         MOR_TRY(context, write_outputs(context, files, p));
         show_progress(&files->progress, s, p);
@@ -156,19 +150,6 @@ static mor_status start_run(mor_context *context, mor_run_files *files, loop_sta
     find_next_outputs(files->simulation, p);
     p->last_save = mor_wall_time();
     return MOR_OK;
-}
-
-/* The method takes soil to be hardly compressible, which needs speeds far below that of sound. */
-static void warn_of_speed(mor_context *context, const mor_simulation *s, const loop_state *p)
-{
-    const double advisable = 0.1;
-    if (s->has_soil && p->fastest > advisable * s->soil.sound_speed) {
-        mor_context_log(
-            context, MOR_LOG_WARNING,
-            "the largest speed was %.2f of the speed of sound (at t = %.4g s); below %g is advisable: raise %s",
-            p->fastest / s->soil.sound_speed, p->fastest_time, advisable,
-            mor_params_stiffness_key(s->laws[0]->parameters));
-    }
 }
 
 /* Results are those of the soil that stayed. */
@@ -436,7 +417,6 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
     mor_stop_enter(options->stop, MOR_STOP_AFTER_WRITING);
     MOR_TRY(context, mor_run_files_save(context, files));
     mor_stop_enter(options->stop, MOR_STOP_AT_ONCE);
-    warn_of_speed(context, s, p); /* of this part of the run: one that goes on begins anew */
     if (!outcome->is_finished) {
         outcome->is_interrupted = mor_stop_is_requested(options->stop);
         fprintf(options->output, "stopped at t = %.6g s of %.6g s, step %llu; the run can be resumed\n",
@@ -445,6 +425,7 @@ static mor_status finish_run(mor_context *context, mor_run_files *files, const l
         return MOR_OK;
     }
     print_end(files, p, speed);
+    mor_run_warn_of_speed(context, s);
     warn_of_outflow(context, s);
     MOR_TRY(context, warn_of_density_drift(context, s));
     warn_of_gaps(context, s);

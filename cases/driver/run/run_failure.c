@@ -4,6 +4,7 @@
 
 #include "cases/driver/element/element_point.h"
 #include "cases/driver/picture/pictures.h"
+#include "cases/driver/run/run_step.h"
 #include "core/material/composite.h"
 #include "core/material/varied.h"
 
@@ -103,6 +104,7 @@ mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files, 
                                          .step = (int64_t)schedule->n_steps,
                                          .set = reason.particle_set,
                                          .particle = reason.particle};
+    mor_run_warn_of_speed(context, files->simulation);
     if (status == MOR_OK) {
         status = write_results(context, files, &failure);
     }

@@ -4,7 +4,9 @@
 
 #include "cases/driver/map/map_track.h"
 #include "cases/driver/probe/probe.h"
+#include "cases/driver/run/run_warnings.h"
 #include "cases/driver/run/wall_time.h"
+#include "core/material/params.h"
 
 #include <math.h>
 
@@ -79,11 +81,29 @@ static void warn_of_overlap(mor_context *context, const mor_simulation *simulati
     }
 }
 
+void mor_run_warn_of_speed(mor_context *context, const mor_simulation *simulation)
+{
+    const double advisable = 0.1;
+    const double sound_speed = simulation->soil.sound_speed;
+    if (simulation->has_soil && simulation->fastest > advisable * sound_speed) {
+        mor_context_log(context, MOR_LOG_WARNING,
+                        MOR_RUN_WARNING_AT_END
+                        "the largest speed so far was %.2f of the speed of sound (at t = %.4g s); below %g is "
+                        "advisable: raise %s",
+                        simulation->fastest / sound_speed, simulation->fastest_time, advisable,
+                        mor_params_stiffness_key(simulation->laws[0]->parameters));
+    }
+}
+
 mor_status mor_run_step(mor_context *context, mor_simulation *simulation, int64_t until, double *seconds)
 {
     const double before = mor_wall_time();
     MOR_TRY(context, mor_schedule_step(context, &simulation->schedule, until));
     *seconds += mor_wall_time() - before;
+    if (simulation->soil.largest_speed > simulation->fastest) {
+        simulation->fastest = simulation->soil.largest_speed;
+        simulation->fastest_time = mor_schedule_time(&simulation->schedule);
+    }
     warn_of_overlap(context, simulation);
     warn_of_placement(context, simulation);
     mor_map_follow(context, simulation->maps);

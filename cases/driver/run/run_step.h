@@ -16,7 +16,13 @@ int64_t mor_run_snapshot_tick(const mor_simulation *simulation, int64_t number);
  *  @param number [in]  of a snapshot that is not behind it */
 int64_t mor_run_find_snapshot(const mor_simulation *simulation, int64_t number);
 
-/** Takes a step and measures the probes that are due; warns after the first step of bodies that overlap.
+/** Warns of soil that was too fast in the steps so far: the method takes it to be hardly compressible, which needs
+ *  speeds far below that of sound. To be called where a run ends or fails.
+ *  @param context [in,out]  logs the warning */
+void mor_run_warn_of_speed(mor_context *context, const mor_simulation *simulation);
+
+/** Takes a step, notes the largest speed and measures the probes that are due; warns after the first step of bodies
+ *  that overlap.
  *  @param context [in,out]  logs the warning
  *  @param until   [in]      tick not to be passed, > now
  *  @param seconds [in,out]  the time that the step took without the probes is added, unit s

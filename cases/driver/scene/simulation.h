@@ -70,6 +70,8 @@ typedef struct mor_simulation {
     double settled[MOR_SIMULATION_SETTLED_NUMBERS]; /* how the initial stress settled, units of the enum above; time 0:
                                                        it did not */
     double initial_energies[3];                     /* kinetic, potential and elastic at time zero, J (J/m in 2D) */
+    double fastest;                                 /* largest speed of the soil after a step so far, m/s */
+    double fastest_time;                            /* when that was, s */
     struct mor_probe_track *probes;                 /* state of the probes; owned */
     struct mor_map_track *maps;                     /* state of the maps; owned; NULL: none are wanted */
     mor_state_list state;                           /* what a resumed run needs, as its owners list it */

@@ -42,6 +42,8 @@ mor_status mor_simulation_list_state(mor_context *context, mor_simulation *simul
     }
     MOR_TRY(context, list_integration(context, s, list));
     MOR_TRY(context, mor_state_add(context, list, own, "initial_energies", MOR_STATE_DOUBLE, 3, s->initial_energies));
+    MOR_TRY(context, mor_state_add(context, list, own, "fastest", MOR_STATE_DOUBLE, 1, &s->fastest));
+    MOR_TRY(context, mor_state_add(context, list, own, "fastest_time", MOR_STATE_DOUBLE, 1, &s->fastest_time));
     if (mor_simulation_settles(s)) {
         MOR_TRY(context, mor_state_add(context, list, own, "settled", MOR_STATE_DOUBLE, MOR_SIMULATION_SETTLED_NUMBERS,
                                        s->settled));
