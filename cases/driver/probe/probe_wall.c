@@ -60,11 +60,11 @@ static mor_status wall_gap(mor_context *context, const view *v, double *value)
     for (int w = 0; w < c->n_walls; ++w) {
         if (strcmp(c->walls[w].name, v->probe->wall) == 0) {
             job.wall = w;
-            *value = INFINITY;
-            if (mor_simulation_is_removed(c->walls[w].removed_at, job.time)) {
-                *value = NAN;
+            *value = NAN; /* without the wall, or soil that is there */
+            if (v->points.n_points == 0 || mor_simulation_is_removed(c->walls[w].removed_at, job.time)) {
                 return MOR_OK;
             }
+            *value = INFINITY;
             mor_reduce(&blocks, context->n_threads, MOR_REDUCE_SMALLEST, 1, find_gap, &job, partial, value);
             return MOR_OK;
         }
@@ -80,9 +80,10 @@ const mor_probe_measure mor_probe_wall_measures[] = {
     {.type = {"wall_impulse", "N s", "N s/m", WALL | DIRECTION, WALL | DIRECTION, OF_SOIL, 100.0,
               "impulse of the soil on a wall since the start along direction"},
      .run = wall_impulse},
-    {.type =
-         {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
-          "smallest distance of a soil particle from the surface of a wall; negative: inside; NaN once it is removed"},
+    {.type = {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
+              "smallest distance of a soil particle from the surface of a wall; negative: inside; NaN once it is "
+              "removed or all "
+              "soil has left"},
      .run = wall_gap,
      .cost = MOR_PROBE_COST_DISTANCE},
     {.run = NULL}};

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tests/common/scene.h"
 
+#include <string.h>
+
 /* Probes of one soil among several, against what the lattice tells: two layers of one material or of two. */
 
 #define LAYER(name, low, high, modulus)                                                                                \
@@ -84,11 +86,31 @@ static void particles_keep_their_soil_when_sorted(void **state)
     scene_free(it);
 }
 
+/* Of the upper soil no particle is there any more; without a particle there is no distance, however large. */
+static void soil_that_has_left_has_no_place(void **state)
+{
+    static const char *const names[] = {"upper_gap", "upper_height", "upper_center", "upper_speed"};
+    (void)state;
+    const scene_request request = {
+        .text = CASE(LAYER("lower", "0", "0.5", "5 MPa"), LAYER("upper", "0.5", "0.8", "5 MPa"))};
+    scene *it = scene_new(&request);
+    const mor_soil *soil = &it->simulation.soil;
+    memset(soil->set.data[soil->region_field], 0, (size_t)soil->set.n_particles * sizeof(double));
+    expect(it, "upper_mass", 0.0);
+    expect(it, "lower_mass", 0.8 * 2000.0);
+    expect(it, "lower_gap", 0.05);
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        assert_true(isnan(scene_probe(it, names[k])));
+    }
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probe_of_one_soil_measures_its_particles_alone),
         cmocka_unit_test(particles_keep_their_soil_when_sorted),
+        cmocka_unit_test(soil_that_has_left_has_no_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
