@@ -339,9 +339,10 @@ static const mor_probe_measure measures[] =
                "run-out distance of the deposit; along a path, from its first point"},
       .run = run_out,
       .cost = MOR_PROBE_COST_PERCENTILE},
-     {.type = {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
-               "largest distance of the center of a particle, of soil or free bodies, that lies higher than origin; 0: "
-               "there is none"},
+     {.type =
+          {"toe", "m", "m", SOIL | ALONG, 0, 0, 100.0,
+           "largest distance of the center of a particle, of soil or free bodies, that lies higher than origin; 0, not "
+           "NaN: none lies higher"},
       .run = toe,
       .cost = MOR_PROBE_COST_SUM},
      {.type = {"front_speed", "m/s", "m/s", FRONT | REGION | PATH, 0, OF_SOIL, 99.5,
