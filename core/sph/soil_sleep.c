@@ -294,11 +294,7 @@ mor_status mor_soil_count_sleep(mor_context *context, void *owner, mor_view *vie
     for (int a = 0; a < 3; ++a) {
         sleep->impulse[a] -= step->length * force[a];
     }
-    const int64_t last = sleep->n_clusters - 1; /* it may have fewer particles */
-    sleep->n_left_out += (uint64_t)(sleep->n_asleep * MOR_CLUSTER);
-    if (mor_sleep_is(sleep->states, last, MOR_SLEEP_ASLEEP)) {
-        sleep->n_left_out -= (uint64_t)(sleep->n_clusters * MOR_CLUSTER - soil->set.n_particles);
-    }
+    sleep->n_left_out += (uint64_t)sleep->n_sleepers;
     return MOR_OK;
 }
 

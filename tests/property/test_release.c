@@ -220,6 +220,53 @@ static void release_depends_neither_on_threads_nor_on_when_lists_were_built(void
     assert_true(find_checksum(never, 2) != checksum);
 }
 
+/* Soil 'a' is thrown out of the domain, column by column, away from 'b', which stands. */
+static const char thrown[] =
+    "title = 'thrown'; dimension = 2; spacing = '20 mm'; gravity = (0, -10); end = '1 s';"
+    "domain = { min = ('-1 m', '-1 m'); max = ('3 m', '2 m'); outflow = 'remove'; };"
+    "soil = ( { name = 'a'; " SAND " shape = { type = 'box'; min = ('-0.99 m', '0 m'); max = ('-0.89 m', '0.3 m'); };"
+    "    velocity = (-5, 0); },"
+    "  { name = 'b'; " SAND " shape = { type = 'box'; min = ('0.4 m', '0 m'); max = ('0.8 m', '0.62 m'); };"
+    "    released = '1 s'; } );"
+    "numerics = { sort_interval = 100000; };"
+    "probes = ( { name = 'asleep'; type = 'asleep_share'; } );";
+
+/* Particles in clusters that hold nothing but the second soil, which sleep. */
+static int64_t count_standing(const mor_soil *soil)
+{
+    const double *region = soil->set.data[soil->region_field];
+    int64_t n = 0;
+    for (int64_t first = 0; first < soil->set.n_particles; first += MOR_CLUSTER) {
+        const int64_t last = first + MOR_CLUSTER < soil->set.n_particles ? first + MOR_CLUSTER : soil->set.n_particles;
+        int64_t n_of_cluster = 0;
+        for (int64_t i = first; i < last; ++i) {
+            n_of_cluster += region[i] == 1.0;
+        }
+        n += n_of_cluster == last - first ? n_of_cluster : 0;
+    }
+    return n;
+}
+
+/* Particles behind those that leave move up in the arrays at the end of the step, in which as many slept. */
+static void share_of_soil_that_stands_is_right_as_other_soil_leaves(void **state)
+{
+    (void)state;
+    scene *it = open(thrown, nothing, 2);
+    const mor_soil *soil = &it->simulation.soil;
+    int n_outflows = 0;
+    scene_step(it, 1);
+    while (n_outflows < 3) {
+        const int64_t n_before = soil->set.n_particles;
+        const int64_t n_standing = count_standing(soil);
+        assert_true(n_standing > COLUMN - 2 * MOR_CLUSTER);
+        scene_step(it, 1);
+        const double n = (double)soil->set.n_particles;
+        scene_expect_near("particles asleep", scene_probe(it, "asleep") * n, (double)n_standing, 1e-9); /* rounding */
+        n_outflows += soil->set.n_particles < n_before;
+    }
+    scene_free(it);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +274,7 @@ int main(void)
         cmocka_unit_test(soil_that_is_not_released_stands_beside_soil_that_flows),
         cmocka_unit_test(soil_that_is_not_released_is_not_strained),
         cmocka_unit_test(momentum_given_to_soil_that_stands_is_accounted_for),
+        cmocka_unit_test(share_of_soil_that_stands_is_right_as_other_soil_leaves),
         cmocka_unit_test(release_depends_neither_on_threads_nor_on_when_lists_were_built),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

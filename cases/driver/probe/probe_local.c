@@ -115,12 +115,9 @@ static mor_status unbalanced_force_largest(mor_context *context, const mor_probe
 static mor_status asleep_share(mor_context *context, const mor_probe_view *v, double *value)
 {
     const mor_soil *soil = &v->simulation->soil;
-    int64_t n = 0;
+    const double n = (double)soil->set.n_particles;
     (void)context;
-    for (int64_t i = 0; i < soil->set.n_particles; ++i) {
-        n += mor_sleep_is(soil->sleep.states, i / MOR_CLUSTER, MOR_SLEEP_ASLEEP);
-    }
-    *value = soil->set.n_particles > 0 ? (double)n / (double)soil->set.n_particles : NAN;
+    *value = n > 0.0 ? (double)soil->sleep.n_sleepers / n : NAN;
     return MOR_OK;
 }
 

@@ -267,8 +267,12 @@ void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_jo
         sleep->calm[cluster] = (int8_t)is_deep;
     }
     sleep->n_asleep = 0;
+    sleep->n_sleepers = 0;
     for (int64_t cluster = 0; cluster < n; ++cluster) {
-        sleep->n_asleep += sleep->states[cluster] != MOR_SLEEP_AWAKE;
+        if (sleep->states[cluster] != MOR_SLEEP_AWAKE) {
+            sleep->n_asleep += 1;
+            sleep->n_sleepers += smaller(MOR_CLUSTER, job->n_particles - cluster * MOR_CLUSTER);
+        }
         if (sleep->calm[cluster] && sleep->deep[cluster]) {
             sleep->states[cluster] = MOR_SLEEP_HELD;
         }
@@ -292,6 +296,7 @@ void mor_sleep_wake(mor_sleep *sleep)
     memset(sleep->deep, 0, (size_t)sleep->n_clusters);
     memset(sleep->changing, CHANGING, (size_t)sleep->n_clusters);
     sleep->n_asleep = 0;
+    sleep->n_sleepers = 0;
 }
 
 /* One past the last cluster from first on that sleeps, or is awake, as first does. */

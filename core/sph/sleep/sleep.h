@@ -45,6 +45,7 @@ typedef struct mor_sleep {
     int64_t capacity;    /* neighbors there is room for */
     int64_t n_clusters;  /* in use */
     int64_t n_asleep;    /* clusters that sleep in this step */
+    int64_t n_sleepers;  /* their particles, which stay, whoever leaves at the end of the step */
     double momentum[3];  /* taken from particles that fell asleep, kg m/s (kg/s) */
     double kinetic;      /* energy taken likewise, J (J/m) */
     double impulse[3];   /* given by soil that was computed to soil that slept, N s (N s/m) */
@@ -114,7 +115,7 @@ void mor_sleep_forget_bodies(mor_sleep *sleep);
 void mor_sleep_mark_bodies(mor_sleep *sleep, const mor_relation *bodies);
 
 /** Decides which clusters sleep in this step.
- *  @param sleep [in,out]  states, changing and n_asleep are set */
+ *  @param sleep [in,out]  states, changing, n_asleep and n_sleepers are set */
 void mor_sleep_decide(mor_context *context, mor_sleep *sleep, const mor_sleep_job *job);
 
 /** Returns the memory of clusters and of the lists of their neighbors, bytes. */
