@@ -283,6 +283,9 @@ static inline mor_case *case_reading_strip(const mor_case *the_case)
     }
     for (int k = 0; k < copy->n_probes; ++k) {
         memset(&copy->probes[k].place, 0, sizeof copy->probes[k].place);
+        memset(&copy->probes[k].region_outline, 0, sizeof copy->probes[k].region_outline);
+        copy->probes[k].region = NULL;
+        copy->probes[k].path = NULL;
         copy->probes[k].written = 0;
     }
     for (int k = 0; k < copy->n_expectations; ++k) {
@@ -309,6 +312,13 @@ static inline void case_reading_round_trip(case_reading *f, const char *text, co
     }
     for (int k = 0; k < f->first.n_walls; ++k) {
         case_reading_outlines(&f->first.walls[k].outline, &f->second.walls[k].outline);
+    }
+    for (int k = 0; k < f->first.n_probes; ++k) {
+        const mor_case_probe *probe = &f->first.probes[k];
+        case_reading_outlines(&probe->region_outline, &f->second.probes[k].region_outline);
+        for (int i = 0; i < 3 * probe->n_path; ++i) {
+            assert_true(probe->path[i] == f->second.probes[k].path[i]); /* exact: the same bits */
+        }
     }
     for (int k = 0; k < f->first.n_bodies; ++k) {
         const mor_case_body *body = &f->first.bodies[k];

@@ -395,6 +395,8 @@ enum {
     MOR_CASE_PROBE_OF_FORCE = 32,   /* a force, which has an impulse */
     MOR_CASE_PROBE_OF_PAST = 128,   /* remembers from the start on, so that it cannot be added to a run that goes on */
     MOR_CASE_PROBE_OF_PLANE = 256,  /* counts what crosses the plane through origin, along direction */
+    MOR_CASE_PROBE_OF_POINT = 512,  /* looks around origin, or into a region in place of that */
+    MOR_CASE_PROBE_OF_DATUM = 1024, /* counts heights over origin along a path as well */
     MOR_CASE_PROBE_OF_CONTACT = 64  /* changes with each sub-step of the bodies */
 };
 

@@ -133,15 +133,15 @@ const mor_probe_measure mor_probe_local_measures[] = {
               "largest net force on a particle or free body / its weight"},
      .run = unbalanced_force_largest,
      .cost = MOR_PROBE_COST_SUM},
-    {.type = {"soil_velocity", "m/s", "m/s", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+    {.type = {"soil_velocity", "m/s", "m/s", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL | POINT, 100.0,
               "velocity of the soil at origin along direction, mean over two spacings around, or over a region; NaN "
               "without soil"},
      .run = soil_velocity},
-    {.type = {"soil_stress", "Pa", "Pa", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+    {.type = {"soil_stress", "Pa", "Pa", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL | POINT, 100.0,
               "normal stress of the soil at origin across a plane with the normal direction, mean over two spacings "
               "around, or over a region; tension is positive; NaN without soil"},
      .run = soil_stress},
-    {.type = {"soil_shear_stress", "Pa", "Pa", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL, 100.0,
+    {.type = {"soil_shear_stress", "Pa", "Pa", SOIL | REGION | ORIGIN | DIRECTION, DIRECTION, OF_SOIL | POINT, 100.0,
               "size of the shear stress of the soil on that plane, likewise"},
      .run = soil_shear_stress},
     {.run = NULL}};

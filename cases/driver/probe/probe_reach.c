@@ -191,10 +191,10 @@ const mor_probe_measure mor_probe_reach_measures[] = {
      .remember = remember,
      .cost = MOR_PROBE_COST_SUM},
     {.type =
-         {"energy_line", "m", "m", SOIL | REGION | ORIGIN | DIRECTION | PATH | FRICTION, 0, 0, 100.0,
+         {"energy_line", "m", "m", SOIL | REGION | ORIGIN | DIRECTION | PATH | FRICTION, 0, DATUM, 100.0,
           "mean over soil and free bodies, by mass, of height + speed^2 / 2 gravity + friction_coefficient times the "
-          "level way along direction or path, over origin: constant where only such friction of the ground takes "
-          "energy"},
+          "level way along direction or path, over origin (of a path over its height alone): constant where only such "
+          "friction of the ground takes energy"},
      .run = energy_line,
      .cost = MOR_PROBE_COST_SUM},
     {.run = NULL}};

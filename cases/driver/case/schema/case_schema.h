@@ -180,6 +180,19 @@ const mor_case_probe_type *mor_case_probe_type_find(mor_case_probe_catalog catal
  *  @param dimension [in]  2 or 3 */
 unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension);
 
+/** Returns the key that leaves one of a probe without effect, a static string: a path takes the place of a line through
+ *  the origin, a region that of what is around the origin; NULL: none.
+ *  @param key        [in]  zero-terminated name of a key
+ *  @param has_path   [in]  whether the probe has a path
+ *  @param has_region [in]  whether it has a region */
+const char *mor_case_probe_replacement(const mor_case_probe_type *type, const char *key, bool has_path,
+                                       bool has_region);
+
+/** Writes the names of the keys that a type takes: "name, type, origin, window".
+ *  @param text       [out]  shape [text_bytes]; zero-terminated, cut where it is too long
+ *  @param text_bytes [in]   size of text */
+void mor_case_probe_list_keys(const mor_case_probe_type *type, char *text, size_t text_bytes);
+
 /** Returns the SI unit of a probe's value.
  *  @param dimension [in]  2 or 3 */
 const char *mor_case_probe_unit(const mor_case_probe_type *type, int dimension);

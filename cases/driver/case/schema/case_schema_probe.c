@@ -5,6 +5,7 @@
 #include "cases/driver/case/schema/case_schema_words.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Probes and expectations: the tables. Entries follow mor_schema as in case_schema.c. */
@@ -57,7 +58,7 @@ static const mor_case_key probe_keys[] = {
       "whether distance is measured from the vertical line through origin instead of along direction"},
      MOR_CASE_STORE_BOOL,
      AT(mor_case_probe, is_radial),
-     .computed = "true in 3D unless direction is given"},
+     .computed = "true in 3D unless direction or path is given"},
     {{"speed", MOR_SCHEMA_REAL, 1, "m/s", 0, NAN, NOT_NEGATIVE, NULL, "speed up to which soil or a body is at rest"},
      MOR_CASE_STORE_REALS,
      AT(mor_case_probe, speed),
@@ -220,6 +221,28 @@ unsigned mor_case_probe_required(const mor_case_probe_type *type, int dimension)
 {
     const bool is_rotation_in_plane = dimension == 2 && (type->traits & MOR_CASE_PROBE_OF_ROTATION) != 0;
     return is_rotation_in_plane ? type->required & ~(unsigned)MOR_CASE_PROBE_DIRECTION : type->required;
+}
+
+const char *mor_case_probe_replacement(const mor_case_probe_type *type, const char *key, bool has_path, bool has_region)
+{
+    const bool is_line = strcmp(key, "direction") == 0 || strcmp(key, "radial") == 0;
+    const bool is_origin = strcmp(key, "origin") == 0;
+    const bool is_datum = is_origin && (type->traits & MOR_CASE_PROBE_OF_DATUM) != 0;
+    const bool is_point = is_origin && (type->traits & MOR_CASE_PROBE_OF_POINT) != 0;
+    return has_path && (is_line || (is_origin && !is_datum)) ? "path" : has_region && is_point ? "region" : NULL;
+}
+
+void mor_case_probe_list_keys(const mor_case_probe_type *type, char *text, size_t text_bytes)
+{
+    size_t used = (size_t)snprintf(text, text_bytes, "name, type");
+    for (int k = 0; mor_case_probe_key_names[k] != NULL && used < text_bytes; ++k) {
+        if ((type->allowed >> k & 1U) != 0) {
+            used += (size_t)snprintf(text + used, text_bytes - used, ", %s", mor_case_probe_key_names[k]);
+        }
+    }
+    if (used < text_bytes) {
+        snprintf(text + used, text_bytes - used, ", window");
+    }
 }
 
 const char *mor_case_probe_impulse_unit(const mor_case_probe_type *type, int dimension)

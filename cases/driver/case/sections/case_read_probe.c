@@ -33,34 +33,28 @@ static mor_status read_type(const mor_case_reader *reader, const mor_case_node *
     return mor_case_reader_refuse(reader, name, "type of probe", words, n_words);
 }
 
-/* Which of the special keys a type takes. */
-static void list_keys(unsigned bits, char *text, size_t text_bytes)
-{
-    size_t used = (size_t)snprintf(text, text_bytes, "name, type");
-    for (int k = 0; mor_case_probe_key_names[k] != NULL && used < text_bytes; ++k) {
-        if ((bits >> k & 1U) != 0) {
-            used += (size_t)snprintf(text + used, text_bytes - used, ", %s", mor_case_probe_key_names[k]);
-        }
-    }
-    if (used < text_bytes) {
-        snprintf(text + used, text_bytes - used, ", window");
-    }
-}
-
 static mor_status check_special_keys(const mor_case_reader *reader, const mor_case_node *node,
                                      const mor_case_probe_type *type)
 {
     const unsigned required = mor_case_probe_required(type, reader->dimension);
+    const bool has_path = (type->allowed & MOR_CASE_PROBE_PATH) != 0 && mor_case_node_find(node, "path") != NULL;
+    const bool has_region = mor_case_node_find(node, "region") != NULL;
     for (int k = 0; mor_case_probe_key_names[k] != NULL; ++k) {
         const char *key = mor_case_probe_key_names[k];
         const mor_case_node *child = mor_case_node_find(node, key);
         if (child != NULL && (type->allowed >> k & 1U) == 0) {
             char allowed[MOR_CASE_NODE_TEXT_BYTES];
-            list_keys(type->allowed, allowed, sizeof allowed);
+            mor_case_probe_list_keys(type, allowed, sizeof allowed);
             return MOR_CASE_NODE_FAIL(reader->context, child,
                                       "found '%s', which has no effect on a probe of type '%s'; "
                                       "allowed: %s; remove it",
                                       key, type->name, allowed);
+        }
+        const char *other = mor_case_probe_replacement(type, key, has_path, has_region);
+        if (child != NULL && other != NULL) {
+            return MOR_CASE_NODE_FAIL(reader->context, child,
+                                      "found '%s', which has no effect beside '%s'; allowed: one of both; remove it",
+                                      key, other);
         }
         if (child == NULL && (required >> k & 1U) != 0) {
             char allowed[MOR_CASE_NODE_TEXT_BYTES];

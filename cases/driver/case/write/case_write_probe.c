@@ -18,7 +18,8 @@ static mor_case_presence presence_of_probe_key(const mor_case_key *key, const vo
     }
     const bool has_measure = (type->allowed & MOR_CASE_PROBE_MEASURE) != 0;
     const bool is_by_thickness = strcmp(probe->measure, "thickness") == 0;
-    const bool is_idle = (strcmp(name, "gauge") == 0 && probe->gauge[0] == '\0') ||
+    const bool is_replaced = mor_case_probe_replacement(type, name, probe->n_path > 0, probe->region != NULL) != NULL;
+    const bool is_idle = is_replaced || (strcmp(name, "gauge") == 0 && probe->gauge[0] == '\0') ||
                          (strcmp(name, "soil") == 0 && probe->soil[0] == '\0') ||
                          (strcmp(name, "window") == 0 && isnan(probe->window[0])) ||
                          (strcmp(name, "direction") == 0 && probe->is_radial) ||

@@ -416,6 +416,14 @@ static void a_written_case_reads_back_to_the_same_bits(void **state)
                                              "placement.angle=7 deg", "probes[2].direction=(1, 2, 3)", "spacing=0.1 in",
                                              NULL});
     case_reading_round_trip(*state, least_text, (const char *[]){"scale.length=0.25", "scale.time=16", NULL});
+    /* Keys that a path or a region leaves without effect are refused, so that they must not be written. */
+    case_reading_round_trip(
+        *state, least_text,
+        (const char *[]){
+            "probes=({type=\"run_out\"; path=((0, 0), (1, 0));},"
+            "{type=\"energy_line\"; origin=(0, 1); path=((0, 0), (1, 0));},"
+            "{type=\"soil_stress\"; direction=(0, 1); region={type=\"sphere\"; center=(0, 0); radius=1;};})",
+            NULL});
 }
 
 static void a_written_case_marks_defaults_and_only_them(void **state)
