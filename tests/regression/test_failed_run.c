@@ -1,5 +1,6 @@
 /* Moraine: soil-rock mixtures by smoothed particle hydrodynamics.
  * SPDX-License-Identifier: Apache-2.0 */
+#include "cases/driver/gauge/gauge_table.h"
 #include "tests/common/body_variant.h"
 #include "tests/common/finished_run.h"
 #include "tests/common/program.h"
@@ -111,6 +112,43 @@ static void last_finished_step_is_the_same_after_a_resume(void **state)
     finished_run_read_hash(folder, "parts", hash_b);
     assert_string_equal(hash_a, hash_b);
     finished_run_compare_bytes(folder, "whole", "parts", MOR_TABLE_SERIES_FILE);
+    finished_run_compare_results(folder, "whole", "parts");
+}
+
+static double read_result(run_folder *folder, const char *name)
+{
+    char path[MOR_PATH_BYTES];
+    char unit[32];
+    double value = NAN;
+    finished_run_file(folder, path, "run", MOR_SUMMARY_FILE);
+    assert_int_equal(mor_summary_read_result(&folder->context, path, name, &value, unit, sizeof unit), MOR_OK);
+    return value;
+}
+
+/* Rows lie closer together than the states that are kept: the last row is the mean since the one before it. */
+static void rows_of_gauges_add_up_to_the_impulse(void **state)
+{
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char text[sizeof finished_run_case + 128];
+    mor_table_data rows;
+    double impulse = 0.0;
+    snprintf(text, sizeof text, "%s gauges = ( { name = 'floor'; wall = 'floor'; direction = (0, -1); } );",
+             finished_run_case);
+    finished_run_store_text(folder, text, path);
+    program_outcome outcome = fail_run(folder, "run", LEAVES, "output.series_interval=1 ms", NULL);
+    program_clear(&outcome);
+    finished_run_file(folder, path, "run", MOR_GAUGE_TABLE_FILE);
+    assert_int_equal(mor_table_data_read(&folder->context, &rows, path), MOR_OK);
+    assert_true(rows.n_rows > 3);
+    for (int64_t k = 1; k < rows.n_rows; ++k) {
+        const double *row = rows.values + k * rows.n_columns; /* time, normal, ... */
+        impulse += row[1] * (row[0] - row[-rows.n_columns]);
+    }
+    mor_table_data_clear(&folder->context, &rows);
+    const double expected = read_result(folder, "gauge.floor.impulse_soil");
+    assert_true(expected > 1.0);
+    assert_true(fabs(impulse - expected) < 1e-7 * expected); /* rounding of times in the table */
 }
 
 /* The remedy that the message names is taken, and nothing of the stop is left. */
@@ -180,6 +218,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(run_whose_soil_leaves_keeps_its_results_and_pictures),
         TEST(last_finished_step_is_the_same_after_a_resume),
+        TEST(rows_of_gauges_add_up_to_the_impulse),
         TEST(failed_run_goes_on_in_a_larger_domain),
         TEST(runaway_soil_keeps_its_results),
         TEST(rocks_that_leave_keep_the_results),

@@ -24,8 +24,7 @@ typedef struct loop_state {
     uint64_t n_loop_steps; /* steps behind loop_seconds */
     uint64_t n_sub_steps;  /* of the bodies in these steps */
     double last_save;      /* wall time of the last checkpoint, s */
-    int64_t next_row;      /* number of the next row of the series */
-    int64_t next_snapshot; /* number of the next snapshot */
+    mor_run_due due;
 } loop_state;
 
 /* Rows closer together than ticks would be one row per step. */
@@ -39,14 +38,19 @@ static int64_t row_tick(const mor_simulation *s, int64_t number)
     return mor_schedule_ticks(&s->schedule, (double)number * row_interval(s));
 }
 
-static void find_next_outputs(const mor_simulation *s, loop_state *p)
+static bool is_row_due(const mor_simulation *s, const mor_run_due *due)
+{
+    return row_tick(s, due->row) <= s->schedule.now || s->schedule.now >= s->schedule.end;
+}
+
+static void find_next_outputs(const mor_simulation *s, mor_run_due *due)
 {
     const int64_t n_passed = (int64_t)(mor_schedule_time(&s->schedule) / row_interval(s));
-    p->next_row = n_passed > p->next_row ? n_passed : p->next_row; /* one by one would take as long as there are rows */
-    while (row_tick(s, p->next_row) <= s->schedule.now) {
-        ++p->next_row;
+    due->row = n_passed > due->row ? n_passed : due->row; /* one by one would take as long as there are rows */
+    while (row_tick(s, due->row) <= s->schedule.now) {
+        ++due->row;
     }
-    p->next_snapshot = mor_run_find_snapshot(s, p->next_snapshot);
+    due->snapshot = mor_run_find_snapshot(s, due->snapshot);
 }
 
 static void show_progress(mor_run_progress *progress, const mor_simulation *s, const loop_state *p)
@@ -72,13 +76,13 @@ static void show_progress(mor_run_progress *progress, const mor_simulation *s, c
 static mor_status write_outputs(mor_context *context, mor_run_files *files, loop_state *p)
 {
     const mor_simulation *s = files->simulation;
-    if (row_tick(s, p->next_row) <= s->schedule.now || s->schedule.now >= s->schedule.end) {
+    if (is_row_due(s, &p->due)) {
         MOR_TRY(context, mor_run_files_add_row(context, files));
     }
-    if (mor_run_snapshot_tick(s, p->next_snapshot) <= s->schedule.now) {
+    if (mor_run_snapshot_tick(s, p->due.snapshot) <= s->schedule.now) {
         MOR_TRY(context, mor_run_files_add_snapshot(context, files));
     }
-    find_next_outputs(s, p);
+    find_next_outputs(s, &p->due);
     if (mor_wall_time() - p->last_save >= files->the_case->output.checkpoint_seconds) {
         MOR_TRY(context, mor_run_files_save(context, files));
         p->last_save = mor_wall_time();
@@ -99,10 +103,10 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, loop_sta
     mor_simulation *s = files->simulation;
     while (s->schedule.now < s->schedule.end && !is_stopping(files->options, s)) {
         if (p->n_loop_steps % MOR_RUN_KEEP_INTERVAL == 0) {
-            MOR_TRY(context, mor_run_files_keep(context, files, p->next_snapshot));
+            MOR_TRY(context, mor_run_files_keep(context, files, &p->due));
         }
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_STEP);
-        MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, p->next_snapshot), &p->loop_seconds));
+        MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, p->due.snapshot), &p->loop_seconds));
         p->n_loop_steps += 1;
         p->n_sub_steps += (uint64_t)mor_schedule_rate_ratio(&s->schedule);
         mor_stop_enter(files->options->stop, MOR_STOP_AFTER_WRITING);
@@ -112,12 +116,16 @@ static mor_status run_steps(mor_context *context, mor_run_files *files, loop_sta
     return MOR_OK;
 }
 
-/* A step without its files. */
-static mor_status retake_step(mor_context *context, mor_simulation *s, int64_t *next_snapshot)
+/* A step without its files. Rows are in them already; what they did to the state is done again. */
+static mor_status retake_step(mor_context *context, mor_run_files *files, mor_run_due *due)
 {
     double seconds = 0.0;
-    MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, *next_snapshot), &seconds));
-    *next_snapshot = mor_run_find_snapshot(s, *next_snapshot);
+    mor_simulation *s = files->simulation;
+    MOR_TRY(context, mor_run_step(context, s, mor_run_snapshot_tick(s, due->snapshot), &seconds));
+    if (is_row_due(s, due)) {
+        MOR_TRY(context, mor_run_files_take_row(context, files));
+    }
+    find_next_outputs(s, due);
     return MOR_OK;
 }
 
@@ -147,7 +155,7 @@ static mor_status start_run(mor_context *context, mor_run_files *files, loop_sta
         MOR_TRY(context, mor_run_files_add_snapshot(context, files));
         MOR_TRY(context, mor_run_files_save(context, files));
     }
-    find_next_outputs(files->simulation, p);
+    find_next_outputs(files->simulation, &p->due);
     p->last_save = mor_wall_time();
     return MOR_OK;
 }
@@ -468,7 +476,7 @@ static void log_reason(const mor_context *context, FILE *log)
 static mor_status run_simulation(mor_context *context, mor_run_files *files, const mor_registry *registry,
                                  mor_run_outcome *outcome)
 {
-    loop_state p = {.next_snapshot = 1};
+    loop_state p = {.due.snapshot = 1};
     files->progress = (mor_run_progress){
         .stream = files->options->progress, .is_terminal = files->options->is_terminal, .last = mor_wall_time()};
     MOR_TRY(context, mor_run_files_keep_case(context, files, registry, files->options->is_resume));

@@ -11,17 +11,17 @@
 #include <math.h>
 #include <string.h>
 
-typedef mor_status (*retake_step)(mor_context *context, mor_simulation *simulation, int64_t *next_snapshot);
+typedef mor_status (*retake_step)(mor_context *context, mor_run_files *files, mor_run_due *due);
 
 /* Brings back the last finished step; the state kept in memory when a step fails that once did not. */
 static mor_status go_back(mor_context *context, mor_run_files *files, retake_step retake)
 {
-    mor_simulation *s = files->simulation;
-    const uint64_t n_steps = s->schedule.n_steps;
-    int64_t next_snapshot = files->kept.next_snapshot;
+    const mor_schedule *schedule = &files->simulation->schedule;
+    const uint64_t n_steps = schedule->n_steps;
+    mor_run_due due = files->kept.due;
     MOR_TRY(context, mor_run_files_recall(context, files));
-    while (s->schedule.n_steps < n_steps) {
-        if (retake(context, s, &next_snapshot) != MOR_OK) {
+    while (schedule->n_steps < n_steps) {
+        if (retake(context, files, &due) != MOR_OK) {
             mor_context_log(context, MOR_LOG_WARNING,
                             "the last finished step cannot be computed again; results are of "
                             "an earlier one");

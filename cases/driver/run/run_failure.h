@@ -17,10 +17,10 @@ enum { MOR_RUN_KEEP_INTERVAL = 64 /* steps from one state kept in memory to the 
  *  @param context [in,out]  holds the error that stopped the run, and does so again on return; what cannot
  *                           be written is logged as a warning
  *  @param files   [in,out]  started, with a state kept
- *  @param retake  [in]      takes one step of the run, without files; number of the next snapshot in and out
+ *  @param retake  [in]      takes one step of the run, without files but with what a row does to the state; what is
+ *                           due next in and out
  *  Returns: the status of the error that stopped the run. */
 mor_status mor_run_conclude_failure(mor_context *context, mor_run_files *files,
-                                    mor_status (*retake)(mor_context *context, mor_simulation *simulation,
-                                                         int64_t *next_snapshot));
+                                    mor_status (*retake)(mor_context *context, mor_run_files *files, mor_run_due *due));
 
 #endif

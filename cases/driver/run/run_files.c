@@ -12,6 +12,7 @@
 
 #include <fcntl.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -244,6 +245,21 @@ mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files)
     return mor_table_append(context, &files->series, row);
 }
 
+mor_status mor_run_files_take_row(mor_context *context, mor_run_files *files)
+{
+    mor_gauges *gauges = &files->simulation->probes->gauges;
+    for (int k = 0; k < files->the_case->n_probes; ++k) {
+        double value = NAN;
+        MOR_TRY(context, mor_probe_value(context, files->simulation, k, &value));
+    }
+    for (int k = 0; k < gauges->n; ++k) {
+        mor_gauge_reading mean;
+        double largest = NAN;
+        mor_gauge_take_row(&gauges->of[k], mor_schedule_time(&files->simulation->schedule), &mean, &largest);
+    }
+    return MOR_OK;
+}
+
 mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files)
 {
     mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
@@ -286,7 +302,7 @@ mor_status mor_run_files_save_state(mor_context *context, mor_run_files *files, 
     return status;
 }
 
-mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot)
+mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, const mor_run_due *due)
 {
     mor_run_kept *kept = &files->kept;
     const mor_state_list *state = &files->simulation->state;
@@ -294,7 +310,7 @@ mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_
         MOR_TRY(context, MOR_NEW(context, &kept->bytes, mor_state_bytes(state), "a state to go back to"));
     }
     mor_state_store(state, kept->bytes);
-    kept->next_snapshot = next_snapshot;
+    kept->due = *due;
     kept->is_valid = true;
     return MOR_OK;
 }

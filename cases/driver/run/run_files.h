@@ -39,11 +39,17 @@ typedef struct mor_run_options {
     bool is_terminal;    /* it can write over the line before */
 } mor_run_options;
 
+/** Numbers of what a run writes next. */
+typedef struct mor_run_due {
+    int64_t row; /* of the series */
+    int64_t snapshot;
+} mor_run_due;
+
 /** A state of the run in memory, to which a run that fails can go back. */
 typedef struct mor_run_kept {
-    char *bytes;           /* a copy of the state, see mor_state_store */
-    int64_t next_snapshot; /* number of the next snapshot at that time */
-    bool is_valid;         /* a state was kept */
+    char *bytes;     /* a copy of the state, see mor_state_store */
+    mor_run_due due; /* at that time */
+    bool is_valid;   /* a state was kept */
 } mor_run_kept;
 
 /** Open files of a run and the numbers that go into them. Owner: the run. */
@@ -146,6 +152,10 @@ void mor_run_files_close(mor_context *context, mor_run_files *files);
  *  Returns: MOR_OK; MOR_ERROR_IO; what a probe returns. */
 mor_status mor_run_files_add_row(mor_context *context, mor_run_files *files);
 
+/** Does to the state what adding a row does, without a row: measures the probes, and begins a new mean of the gauges.
+ *  Returns: MOR_OK; what a probe returns. */
+mor_status mor_run_files_take_row(mor_context *context, mor_run_files *files);
+
 /** Adds a snapshot.
  *  Returns: MOR_OK; MOR_ERROR_IO; MOR_ERROR_MEMORY. */
 mor_status mor_run_files_add_snapshot(mor_context *context, mor_run_files *files);
@@ -162,10 +172,10 @@ mor_status mor_run_files_save(mor_context *context, mor_run_files *files);
 mor_status mor_run_files_save_state(mor_context *context, mor_run_files *files, const mor_registry *registry);
 
 /** Keeps the present state in memory, in place of the one kept before.
- *  @param files         [in,out]  started
- *  @param next_snapshot [in]      number of the next snapshot
+ *  @param files   [in,out]  started
+ *  @param due     [in]      what is written next
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: copies the evolving fields; allocates the first time. */
-mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, int64_t next_snapshot);
+mor_status mor_run_files_keep(mor_context *context, mor_run_files *files, const mor_run_due *due);
 
 /** Goes back to the state kept in memory.
  *  @param files   [in,out]  with a state kept
