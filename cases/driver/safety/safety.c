@@ -200,8 +200,8 @@ static void warn_of_smallest(mor_context *context, const mor_safety_reference *r
         mor_context_log(
             context, MOR_LOG_WARNING,
             "the smallest body that counts as a failure of a slope %.3g m high is %.0f %% of the soil: what "
-            "fails of less goes unnoticed, and the factor is too high for it; give the height of the part "
-            "in question (--height)",
+            "fails of less goes unnoticed, and the factor is too high for it; give as height that of the part "
+            "in question",
             reference->height, 100.0 * reference->smallest);
     }
 }

@@ -91,8 +91,9 @@ mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bo
 
 /** Picks the points of a body that are followed to tell whether it rests: three of a rigid one, of one that deforms
  *  MOR_SLEEP_SAMPLES spread over all of it.
- *  @param n_points [in]   of the body, in tree order, >= 0
- *  @param points   [out]  shape [MOR_SLEEP_SAMPLES]; indices, rising
+ *  @param n_points      [in]   of the body, in tree order, >= 0
+ *  @param is_deformable [in]   they may move against each other
+ *  @param points        [out]  shape [MOR_SLEEP_SAMPLES]; indices, rising
  *  Returns: how many; 0: the body has none. */
 int mor_sleep_pick_points(int64_t n_points, bool is_deformable, int64_t *points);
 
