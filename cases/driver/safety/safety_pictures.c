@@ -35,37 +35,60 @@ static double final_displacement(const mor_safety *it, int trial)
     return mor_safety_trial_last(&it->trials[trial]).displacement * it->setup.reference.height;
 }
 
+enum { VERDICTS = 4 };
+
+/* Trials of one verdict as points; those that went so far that the others would lie on a line are counted alone. */
+typedef struct verdict_points {
+    char name[NAME_BYTES];
+    double x[MOR_SAFETY_TRIALS_MAX]; /* factor, 1 */
+    double y[MOR_SAFETY_TRIALS_MAX]; /* displacement, m */
+    int n, n_beyond;
+} verdict_points;
+
+static void find_points(const mor_safety *it, mor_safety_verdict verdict, verdict_points *points)
+{
+    const double frame = 5.0; /* of the displacement of failure */
+    const double most = frame * it->setup.rules.far * it->setup.reference.height;
+    points->n = points->n_beyond = 0;
+    for (int k = 0; k < it->n_trials; ++k) {
+        if (it->trials[k].finding.verdict == verdict && it->trials[k].n_samples > 0) {
+            const double y = final_displacement(it, k);
+            points->x[points->n] = it->trials[k].factor;
+            points->y[points->n] = y;
+            points->n += y <= most;
+            points->n_beyond += !(y <= most);
+        }
+    }
+    snprintf(points->name, NAME_BYTES, points->n_beyond > 0 ? "%s (%d more above)" : "%s",
+             mor_safety_verdict_word(verdict), points->n_beyond);
+}
+
 static mor_status draw_displacement(mor_context *context, const mor_safety *it, const char *folder, FILE *output)
 {
-    static const mor_safety_verdict verdicts[] = {MOR_SAFETY_STABLE, MOR_SAFETY_UNDECIDED, MOR_SAFETY_FAILS,
-                                                  MOR_SAFETY_BROKE_DOWN};
-    enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
-    double x[VERDICTS][MOR_SAFETY_TRIALS_MAX];
-    double y[VERDICTS][MOR_SAFETY_TRIALS_MAX];
+    static const mor_safety_verdict verdicts[VERDICTS] = {MOR_SAFETY_STABLE, MOR_SAFETY_UNDECIDED, MOR_SAFETY_FAILS,
+                                                          MOR_SAFETY_BROKE_DOWN};
+    verdict_points points[VERDICTS];
     mor_chart_series series[VERDICTS + 1];
     int n = 0;
-    double low = INFINITY;
-    double high = -INFINITY;
+    double ends[2] = {INFINITY, -INFINITY};
     for (int v = 0; v < VERDICTS; ++v) {
-        int n_points = 0;
-        for (int k = 0; k < it->n_trials; ++k) {
-            low = fmin(low, it->trials[k].factor);
-            high = fmax(high, it->trials[k].factor);
-            if (it->trials[k].finding.verdict == verdicts[v] && it->trials[k].n_samples > 0) {
-                x[v][n_points] = it->trials[k].factor;
-                y[v][n_points++] = final_displacement(it, k);
-            }
+        find_points(it, verdicts[v], &points[v]);
+        for (int k = 0; k < points[v].n; ++k) {
+            ends[0] = fmin(ends[0], points[v].x[k]);
+            ends[1] = fmax(ends[1], points[v].x[k]);
         }
-        if (n_points > 0) {
-            series[n++] = (mor_chart_series){.name = mor_safety_verdict_word(verdicts[v]),
-                                             .x = x[v],
-                                             .y = y[v],
-                                             .n_points = n_points,
+        if (points[v].n > 0) {
+            series[n++] = (mor_chart_series){.name = points[v].name,
+                                             .x = points[v].x,
+                                             .y = points[v].y,
+                                             .n_points = points[v].n,
                                              .style = MOR_CHART_POINTS};
         }
     }
+    if (n == 0) {
+        return MOR_OK;
+    }
     const double far = it->setup.rules.far * it->setup.reference.height;
-    const double ends[2] = {low, high};
     const double level[2] = {far, far};
     series[n++] =
         (mor_chart_series){.name = "criterion", .x = ends, .y = level, .n_points = 2, .style = MOR_CHART_DASHED};
