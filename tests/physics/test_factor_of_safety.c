@@ -116,13 +116,15 @@ static void read_band(run_folder *folder, const char *name, double *stable, doub
     char *text = load(folder, name, "fos.json");
     *stable = read_number(text, "\"largest_stable [1]\": ");
     *fails = read_number(text, "\"smallest_failing [1]\": ");
+    const double n_undecided = read_number(text, "\"undecided\": ");
     const double strength = read_number(text, "\"strength_over_mohr_coulomb [1]\": ");
     assert_true(fabs(strength - 1.0) < 1e-3); /* of mohr_coulomb; growth of the stress at which shearing ends */
     free(text);
     if (getenv("MOR_TEST_SHOW") != NULL) {
         printf("%s: %.4f to %.4f\n", name, *stable, *fails);
     }
-    assert_true(*fails - *stable <= 0.0101); /* the tolerance: nothing was undecided */
+    /* The tolerance, and once more where a slope slides for a while and comes to rest in another shape. */
+    assert_true(n_undecided <= 1.0 && *fails - *stable <= 0.0101 * (1.0 + n_undecided));
 }
 
 /* The critical body leaves the level crest behind its edge, and the face of the slope near its toe. */

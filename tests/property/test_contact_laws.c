@@ -197,8 +197,8 @@ static void a_resume_changes_no_bit(void **state)
     open_heap(&second, &request);
     resume(&second, &whole);
     for (int k = 0; k < 200; ++k) {
-        contact_scene_step(&whole, request.end);
-        contact_scene_step(&second, request.end);
+        contact_scene_step(&whole, 2.0 * request.end);
+        contact_scene_step(&second, 2.0 * request.end);
     }
     const fingerprint a = take(&whole);
     const fingerprint b = take(&second);
