@@ -15,7 +15,9 @@ static void print_advice(const mor_command *command, const char *folder, mor_ses
     if (is_at_end && outcome == MOR_SESSION_INTERRUPTED) {
         fprintf(command->output, "'moraine render %s' draws its pictures\n", folder);
     } else if (!is_at_end) {
-        fprintf(command->output, "go on with the same command and --resume\n");
+        const bool is_planned = (command->given & MOR_OPTION_BIT(STOP_AT)) != 0;
+        fprintf(command->output, "go on with the same command and --resume%s\n",
+                is_planned ? ", without --stop-at or with a later one" : "");
     }
 }
 

@@ -18,6 +18,7 @@ enum {
     UP = 1,
     PEAK = 5,
     LAST = 7,
+    BODIES = 8,
     WIDTH = 1600,
     HEIGHT = 1000,
     TEXT = 26,
@@ -158,22 +159,26 @@ static mor_status draw_profile(mor_context *context, const sheet *s, const char 
 {
     double *room = NULL;
     const int64_t n = s->data->n_rows;
-    MOR_TRY(context, MOR_NEW(context, &room, 3 * n, "a profile of pressure"));
+    bool has_bodies = false;
+    MOR_TRY(context, MOR_NEW(context, &room, 4 * n, "a profile of pressure"));
     for (int64_t row = 0; row < n; ++row) {
         room[row] = at(s, row, PEAK);
         room[n + row] = at(s, row, LAST);
         room[2 * n + row] = at(s, row, UP);
+        room[3 * n + row] = at(s, row, BODIES);
+        has_bodies = has_bodies || at(s, row, BODIES) > 0.0;
     }
     const mor_chart_series series[] = {
-        {.name = "peak", .x = room, .y = room + 2 * n, .n_points = n, .style = MOR_CHART_LINE},
-        {.name = "last", .x = room + n, .y = room + 2 * n, .n_points = n, .style = MOR_CHART_DASHED}};
+        {.name = "soil, peak", .x = room, .y = room + 2 * n, .n_points = n, .style = MOR_CHART_LINE},
+        {.name = "soil, last", .x = room + n, .y = room + 2 * n, .n_points = n, .style = MOR_CHART_DASHED},
+        {.name = "bodies, peak", .x = room + 3 * n, .y = room + 2 * n, .n_points = n, .style = MOR_CHART_LINE}};
     const mor_chart chart = {.title = title,
-                             .x_name = "pressure of the soil",
+                             .x_name = "pressure",
                              .x_unit = "Pa",
                              .y_name = "height",
                              .y_unit = "m",
                              .series = series,
-                             .n_series = 2};
+                             .n_series = has_bodies ? 3 : 2};
     const mor_status status = mor_picture_chart(context, &chart, path);
     MOR_FREE(context, &room);
     return status;

@@ -28,7 +28,7 @@ typedef struct sheet {
     const mor_safety *it;
     mor_canvas *canvas;
     mor_axes axes;
-    double low[2], high[2]; /* of the soil, m */
+    double low[2], high[2]; /* of soil and rocks, m */
     double *values;         /* shape [n at creation], by number; what colors show; owned */
     double top;             /* of the colors, unit of the values */
     mor_colormap map;
@@ -70,6 +70,31 @@ static mor_status find_values(mor_context *context, sheet *s, mor_mechanism_colo
 
 /* ---- Parts of the picture ---------------------------------------------------------------------------------------- */
 
+typedef void (*visit_place)(sheet *s, const double *x);
+
+/* Particles of rocks where they are at the end: they belong to no reference. */
+static void visit_rocks(sheet *s, visit_place visit)
+{
+    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
+    const int n_sets = mor_simulation_sets(s->it->mechanism, false, sets);
+    for (int k = s->it->mechanism->has_soil ? 1 : 0; k < n_sets; ++k) {
+        for (int64_t i = 0; i < sets[k]->n_particles; ++i) {
+            double place[3];
+            mor_simulation_take_point_back(s->it->setup.reduced->original, sets[k]->data[MOR_FIELD_POSITION] + 3 * i,
+                                           place);
+            visit(s, place);
+        }
+    }
+}
+
+static void include_place(sheet *s, const double *x)
+{
+    for (int a = 0; a < 2; ++a) {
+        s->low[a] = fmin(s->low[a], x[a]);
+        s->high[a] = fmax(s->high[a], x[a]);
+    }
+}
+
 static void find_bounds(sheet *s)
 {
     const mor_set *set = &s->it->mechanism->soil.set;
@@ -80,11 +105,9 @@ static void find_bounds(sheet *s)
     for (int64_t i = 0; i < set->n_particles; ++i) {
         double x[2];
         place_of(s, set->id[i], x);
-        for (int a = 0; a < 2; ++a) {
-            s->low[a] = fmin(s->low[a], x[a]);
-            s->high[a] = fmax(s->high[a], x[a]);
-        }
+        include_place(s, x);
     }
+    visit_rocks(s, include_place);
     for (int a = 0; a < 2; ++a) {
         const double margin = 0.02 * (s->high[a] - s->low[a]) + s->it->setup.reduced->original->spacing;
         s->low[a] -= margin;
@@ -151,19 +174,9 @@ static void draw_soil(const sheet *s)
     }
 }
 
-/* Rocks where they are at the end: they belong to no reference. */
-static void draw_rocks(const sheet *s)
+static void draw_rock(sheet *s, const double *x)
 {
-    mor_set *sets[MOR_BODY_GROUPS_MAX + 2];
-    const mor_case *c = s->it->setup.reduced->original;
-    const int n_sets = mor_simulation_sets(s->it->mechanism, false, sets);
-    for (int k = s->it->mechanism->has_soil ? 1 : 0; k < n_sets; ++k) {
-        for (int64_t i = 0; i < sets[k]->n_particles; ++i) {
-            double place[3];
-            mor_simulation_take_point_back(c, sets[k]->data[MOR_FIELD_POSITION] + 3 * i, place);
-            draw_square(s, place, loose_overlap * c->spacing, rock_color);
-        }
-    }
+    draw_square(s, x, loose_overlap * s->it->setup.reduced->original->spacing, rock_color);
 }
 
 /* ---- The outline ------------------------------------------------------------------------------------------------- */
@@ -312,7 +325,7 @@ static mor_status draw(mor_context *context, sheet *s, mor_mechanism_color color
     find_bounds(s);
     MOR_TRY(context, lay_out(context, s));
     draw_soil(s);
-    draw_rocks(s);
+    visit_rocks(s, draw_rock);
     MOR_TRY(context, draw_outline(context, s));
     draw_bar(s, color == MOR_MECHANISM_STRAIN ? "plastic strain" : "displacement",
              color == MOR_MECHANISM_STRAIN ? "1" : "m");

@@ -266,8 +266,8 @@ void mor_safety_print(const mor_safety *it, FILE *out)
         fprintf(out, "the verdicts do not follow the factor: a trial stands above one that does not; see trials.csv\n");
     }
     fprintf(out,
-            "by speed: rests below %.3g m/s, moves above %.3g m/s without decay; by displacement: moves beyond %.3g m "
-            "while it grows (slope of H = %.4g m)\n",
+            "by speed: rests below %.3g m/s, moves above %.3g m/s while it has 0.9 of its speed one window before; by "
+            "displacement: moves beyond %.3g m while it grows (slope of H = %.4g m)\n",
             rules->rest * mor_safety_reference_speed(r), rules->motion * mor_safety_reference_speed(r),
             rules->far * r->height, r->height);
     if (it->mechanism != NULL) {

@@ -105,7 +105,7 @@ static mor_status draw_displacement(mor_context *context, const mor_safety *it, 
 
 /* ---- Speed over time --------------------------------------------------------------------------------------------- */
 
-/* The trials nearest to the middle of the band, at most NEAR_MAX below and above; shape [2 * NEAR_MAX]. */
+/* The trials nearest to the middle of the band, at most 2 * NEAR_MAX, by rising factor; near: shape [2 * NEAR_MAX]. */
 static int find_near(const mor_safety *it, int *near)
 {
     const double middle = isnan(it->band.stable)  ? it->band.fails
@@ -124,14 +124,27 @@ static int find_near(const mor_safety *it, int *near)
             break;
         }
         is_taken[best] = true;
-        near[n++] = best;
+        int place = n++;
+        for (; place > 0 && it->trials[near[place - 1]].factor > it->trials[best].factor; --place) {
+            near[place] = near[place - 1];
+        }
+        near[place] = best;
     }
     return n;
 }
 
+/* A limit of the criterion of speed over the time of the trials. */
+static mor_chart_series draw_limit(const char *name, double speed, const double *times, double *room)
+{
+    room[0] = room[1] = log10(speed);
+    return (mor_chart_series){.name = name, .x = times, .y = room, .n_points = 2, .style = MOR_CHART_DASHED};
+}
+
 static mor_status draw_speed(mor_context *context, const mor_safety *it, const char *folder, FILE *output)
 {
-    mor_chart_series series[2 * NEAR_MAX];
+    mor_chart_series series[2 * NEAR_MAX + 2];
+    double times[2] = {0.0, 0.0};
+    double limits[2][2];
     char names[2 * NEAR_MAX][NAME_BYTES];
     int near[2 * NEAR_MAX];
     double *room = NULL;
@@ -145,18 +158,21 @@ static mor_status draw_speed(mor_context *context, const mor_safety *it, const c
         double *y = x + MOR_SAFETY_SAMPLES_MAX;
         for (int s = 0; s < trial->n_samples; ++s) {
             x[s] = trial->samples[s].time * time;
+            times[1] = fmax(times[1], x[s]);
             y[s] = log10(fmax(trial->samples[s].speed * speed, 1.0e-12));
         }
         snprintf(names[k], NAME_BYTES, "F = %.5g %s", trial->factor, mor_safety_verdict_word(trial->finding.verdict));
         series[k] = (mor_chart_series){.name = names[k], .x = x, .y = y, .n_points = trial->n_samples};
     }
+    series[n] = draw_limit("moves above", it->setup.rules.motion * speed, times, limits[0]);
+    series[n + 1] = draw_limit("rests below", it->setup.rules.rest * speed, times, limits[1]);
     const mor_chart chart = {.title = it->setup.reduced->original->title,
                              .x_name = "time since the strength was reduced",
                              .x_unit = "s",
                              .y_name = "decimal logarithm of the speed in m/s",
                              .y_unit = "1",
                              .series = series,
-                             .n_series = n,
+                             .n_series = n + 2,
                              .has_margin = true};
     const mor_status status = write_chart(context, &chart, folder, "images/speed.png", output);
     MOR_FREE(context, &room);

@@ -132,10 +132,30 @@ static void warn_of_cohesions(mor_context *context, const mor_case *c)
     }
 }
 
+/* Soils have up to some 45 degrees, rockfill under little stress 50. */
+static void warn_of_angles(mor_context *context, const mor_case *c)
+{
+    static const double largest = 0.87; /* rad, 50 degrees */
+    static const double degree = 0.01745329251994329577;
+    for (int k = 0; k < c->n_soils; ++k) {
+        const mor_case_soil *it = &c->soils[k];
+        const mor_schema *schema = it->law->parameters;
+        const int entry = mor_params_find_role(schema, MOR_ROLE_FRICTION_ANGLE);
+        const double angle = mor_params_role_value(schema, it->parameters, MOR_ROLE_FRICTION_ANGLE, 0.0);
+        if (entry >= 0 && angle > largest) {
+            mor_context_log(context, MOR_LOG_WARNING,
+                            "soil '%s' has %s = %.3g, %.3g degrees, more than any soil: a bare number is in radians; "
+                            "give the unit, such as \"30 deg\"",
+                            it->name, schema[entry].key, angle, angle / degree);
+        }
+    }
+}
+
 void mor_plausible_warn(mor_context *context, const mor_case *the_case)
 {
     warn_of_densities(context, the_case);
     warn_of_moduli(context, the_case);
     warn_of_frictions(context, the_case);
     warn_of_cohesions(context, the_case);
+    warn_of_angles(context, the_case);
 }

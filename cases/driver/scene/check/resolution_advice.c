@@ -106,8 +106,11 @@ static void print_bodies(const mor_resolution *it, double seconds, FILE *out)
     const double enough = 2.0 * mor_simulation_radius_enough(is_reconstructed);
     const double n = it->least / c->spacing * (1.0 + rounding);
     const double error = 100.0 * mor_simulation_depth_error(0.5 * n, is_reconstructed);
-    fprintf(out, "  resolution of bodies    %d free, %.3g to %.3g spacings across; ", it->n_bodies, n,
-            it->largest / c->spacing);
+    fprintf(out, "  resolution of bodies    %d free, %.3g", it->n_bodies, n);
+    if (it->largest > 1.005 * it->least) {
+        fprintf(out, " to %.3g", it->largest / c->spacing);
+    }
+    fprintf(out, " spacings across; ");
     if (n >= enough) {
         fprintf(out, "%.2g are enough\n", enough);
     } else {
