@@ -103,7 +103,7 @@ static void costs_of_other_spacings_are_told(void **state)
     program_clear(&outcome);
     outcome = program_run(folder, wide, 0); /* 12 across: five are left at 2.4 times the spacing */
     program_expect_text(outcome.output,
-                        "12 to 12 spacings across; 8.3 are enough\n    cheaper               spacing 0.24 m");
+                        "12 spacings across; 8.3 are enough\n    cheaper               spacing 0.24 m");
     program_expect_text(outcome.output, "at which balls sink up to 37 % too little");
     program_clear(&outcome);
 }
