@@ -63,6 +63,7 @@ class Install:
     def check_files(self):
         for name in ("share/man/man1/moraine.1", "share/bash-completion/completions/moraine",
                      "share/doc/moraine/README.md", "share/doc/moraine/docs/index.md",
+                     "share/doc/moraine/cases/README.md",  # pages link to cases beside them
                      "share/moraine/template/CMakeLists.txt", "share/moraine/template_rates/CMakeLists.txt",
                      "share/moraine/template_rates/bank.cfg",
                      "bin/moraine"):

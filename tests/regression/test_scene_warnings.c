@@ -116,6 +116,8 @@ static const scene columns[] = {
     {"soil[0].material.cohesion=5e6",
      "soil 's' has cohesion = 5e+06 Pa beside its friction, more than any soil but rock"},
     {"soil[0].material.cohesion=5e3", NULL},
+    {"soil[0].material.friction_angle=1", "soil 's' has friction_angle = 1, 57.3 degrees, more than any soil"},
+    {"soil[0].material.friction_angle=0.8", NULL}, /* 46 degrees */
     {"numerics.courant=1e-8", "end = 0.001 s takes about 1.11e+08 steps"},
     {"probes[0].percentile=0.995",
      "found percentile = 0.995, which is 0.995 %: percentiles are in percent; if 99.5 % is"},

@@ -82,8 +82,7 @@ const mor_probe_measure mor_probe_wall_measures[] = {
      .run = wall_impulse},
     {.type = {"wall_gap", "m", "m", SOIL | WALL, WALL, OF_SOIL, 100.0,
               "smallest distance of a soil particle from the surface of a wall; negative: inside; NaN once it is "
-              "removed or all "
-              "soil has left"},
+              "removed or all soil has left"},
      .run = wall_gap,
      .cost = MOR_PROBE_COST_DISTANCE},
     {.run = NULL}};

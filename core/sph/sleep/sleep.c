@@ -66,13 +66,8 @@ mor_status mor_sleep_add_bodies(mor_context *context, mor_sleep *sleep, int n_bo
 int mor_sleep_pick_points(int64_t n_points, bool is_deformable, int64_t *points)
 {
     const int n = n_points == 0 ? 0 : is_deformable ? MOR_SLEEP_SAMPLES : 3;
-    for (int k = 0; k < n && is_deformable; ++k) {
-        points[k] = k * (n_points - 1) / (n - 1);
-    }
-    if (n > 0 && !is_deformable) {
-        points[0] = 0;
-        points[1] = n_points / 2;
-        points[2] = n_points - 1;
+    for (int k = 0; k < n; ++k) {
+        points[k] = smaller(k * n_points / (n - 1), n_points - 1);
     }
     return n;
 }

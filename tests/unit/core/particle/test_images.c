@@ -213,9 +213,37 @@ static void rounding_is_fine(void **state)
     }
 }
 
+/* Of a cluster at the upper face one point is behind it, of one at the lower face another: 30 and 20 mm. */
+static void points_beside_the_first_of_their_cluster_reach_through_a_face(void **state)
+{
+    enum { POINTS = 2 * MOR_CLUSTER };
+    const mor_period period = make_period(1);
+    double places[3 * POINTS];
+    double beyond[3];
+    mor_context context;
+    mor_images images;
+    (void)state;
+    mor_context_init(&context);
+    for (int64_t i = 0; i < POINTS; ++i) {
+        places[3 * i] = i < MOR_CLUSTER ? maximum[0] - 0.01 : minimum[0] + 0.01;
+        places[3 * i + 1] = minimum[1] + 0.1;
+        places[3 * i + 2] = minimum[2] + 0.1;
+    }
+    places[3 * 5] = minimum[0] + 0.03;
+    places[3 * (MOR_CLUSTER + 2)] = maximum[0] - 0.02;
+    mor_period_round_places(&period, POINTS, 3, places);
+    assert_int_equal(mor_images_init(&context, &images, &period, POINTS), MOR_OK);
+    assert_int_equal(mor_images_find(&context, &images, places, POINTS, 3, NULL, 0.05), MOR_OK);
+    mor_images_find_overhang(&images, beyond);
+    assert_true(fabs(beyond[0] - 0.03) < 1e-12); /* rounding of places */
+    assert_true(beyond[1] == 0.0 && beyond[2] == 0.0);
+    mor_images_clear(&context, &images);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_beside_the_first_of_their_cluster_reach_through_a_face),
         cmocka_unit_test(lists_hold_the_nearest_image_of_each_neighbor_once),
         cmocka_unit_test(without_axes_nothing_is_made),
         cmocka_unit_test(a_place_comes_back_from_any_number_of_periods),
