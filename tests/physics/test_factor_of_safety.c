@@ -67,6 +67,7 @@ typedef struct question {
     const char *case_path;
     const char *const *settings;
     const char *spacings; /* NULL: that of the case */
+    double height;        /* of the slope, m; 0: that of the soil */
     int n_threads;
 } question;
 
@@ -85,6 +86,7 @@ static mor_status search(run_folder *folder, const question *it, char *message)
     }
     mor_session_safety_init(&options);
     options.spacings = it->spacings;
+    options.height = it->height > 0.0 ? it->height : options.height;
     const mor_status status =
         mor_session_find_safety(session, it->case_path, &options, run_folder_file(folder, path, it->name), &is_found);
     snprintf(message, MOR_CONTEXT_MESSAGE_BYTES, "%s", mor_session_message(session));
@@ -170,17 +172,19 @@ static void cohesive_slope_has_the_factor_of_limit_analysis(void **state)
     }
 }
 
+/* A block on an incline, which is level here. */
+static const char block[] =
+    "title = \"block\"; dimension = 2; spacing = \"0.05 m\"; gravity = (2.868166, -9.381350); end = 2;\n"
+    "domain = { min = (-1, -1); max = (4, 2); };\n"
+    "soil = ( { name = \"block\"; shape = { type = \"box\"; min = (0, 0); max = (1, 0.3); };\n"
+    "  material = { model = \"mohr_coulomb\"; density = 2000; youngs_modulus = 2e7; poissons_ratio = 0.3;\n"
+    "               cohesion = 1e5; friction_angle = 0.5; }; initial_stress = { type = \"settled\"; }; } );\n"
+    "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); };\n"
+    "            friction = \"coulomb\"; friction_coefficient = 0.5; } );\n";
+
 /* A block that is too strong to yield slides where the coefficient over F is the tangent of the inclination. */
 static void strong_block_has_the_factor_of_coulomb(void **state)
 {
-    static const char block[] =
-        "title = \"block\"; dimension = 2; spacing = \"0.05 m\"; gravity = (2.868166, -9.381350); end = 2;\n"
-        "domain = { min = (-1, -1); max = (4, 2); };\n"
-        "soil = ( { name = \"block\"; shape = { type = \"box\"; min = (0, 0); max = (1, 0.3); };\n"
-        "  material = { model = \"mohr_coulomb\"; density = 2000; youngs_modulus = 2e7; poissons_ratio = 0.3;\n"
-        "               cohesion = 1e5; friction_angle = 0.5; }; initial_stress = { type = \"settled\"; }; } );\n"
-        "walls = ( { name = \"floor\"; shape = { type = \"half_space\"; point = (0, 0); normal = (0, 1); };\n"
-        "            friction = \"coulomb\"; friction_coefficient = 0.5; } );\n";
     static const char *const none[] = {NULL};
     run_folder *folder = *state;
     char path[MOR_PATH_BYTES];
@@ -200,6 +204,29 @@ static void strong_block_has_the_factor_of_coulomb(void **state)
     const double expected = 0.5 / tan(17.0 * pi / 180.0);
     assert_true(0.5 * (stable + fails) / expected < 1.03);
     assert_true(0.5 * (stable + fails) / expected > 0.85); /* 3 % were measured: the front edge lifts */
+    char *fine = load(folder, "block/spacing-0.05", "fos.json");
+    assert_null(strstr(fine, "the smallest body that counts"));
+    free(fine);
+}
+
+/* A body of a twentieth of the square of 1.3 m is 28 % of the block: the search warns, and so do its results. */
+static void height_of_more_than_the_soil_is_warned_of(void **state)
+{
+    static const char *const coarse[] = {"spacing=0.1", NULL};
+    run_folder *folder = *state;
+    char path[MOR_PATH_BYTES];
+    char message[MOR_CONTEXT_MESSAGE_BYTES];
+    run_folder_store(run_folder_file(folder, path, "block.cfg"), block, strlen(block));
+    const question it = {.name = "high", .case_path = path, .settings = coarse, .height = 1.3, .n_threads = 1};
+    if (search(folder, &it, message) != MOR_OK) {
+        fail_msg("%s", message);
+    }
+    char *text = load(folder, "high", "fos.json");
+    const char *warnings = strstr(text, "\"warnings\": [\n    \"");
+    assert_non_null(warnings);
+    assert_non_null(
+        strstr(warnings, "the smallest body that counts as a failure of a slope 1.3 m high is 28 % of the soil"));
+    free(text);
 }
 
 static void cases_without_a_strength_to_reduce_are_refused(void **state)
@@ -291,6 +318,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(cohesive_slope_has_the_factor_of_limit_analysis, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(strong_block_has_the_factor_of_coulomb, run_folder_setup, run_folder_teardown),
+        cmocka_unit_test_setup_teardown(height_of_more_than_the_soil_is_warned_of, run_folder_setup,
+                                        run_folder_teardown),
         cmocka_unit_test_setup_teardown(cases_without_a_strength_to_reduce_are_refused, run_folder_setup,
                                         run_folder_teardown),
         cmocka_unit_test_setup_teardown(a_folder_that_holds_a_search_is_refused, run_folder_setup, run_folder_teardown),

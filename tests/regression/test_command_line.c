@@ -243,6 +243,8 @@ static void log_tells_where_a_run_was_stopped(void **state)
     const char *const arguments[] = {"run", path, "-t", "1", "-o", "part", "--stop-at", "0.02 s", NULL};
     finished_run_store_case(folder, path);
     program_outcome outcome = program_run(folder, arguments, 0);
+    program_expect_text(outcome.output,
+                        "go on with the same command and --resume, without --stop-at or with a later one\n");
     program_clear(&outcome);
     expect_log(folder, "part", "info: stopped at t = 0.02");
 }

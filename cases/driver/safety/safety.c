@@ -235,9 +235,27 @@ static void warn_of_result(mor_context *context, const mor_safety *it)
     }
 }
 
-mor_status mor_safety_find(mor_context *context, const mor_safety_request *request, mor_safety *it)
+/* Who listens to the log while a search goes on. */
+typedef struct listener {
+    mor_context *context;
+    mor_run_warnings *warnings;
+    mor_log_sink previous_sink;
+    void *previous_user;
+} listener;
+
+static void hear(void *user, mor_log_level level, const char *text)
 {
-    memset(it, 0, sizeof *it);
+    const listener *it = user;
+    if (level == MOR_LOG_WARNING) {
+        mor_run_warnings_add(it->context, it->warnings, text);
+    }
+    if (it->previous_sink != NULL) {
+        it->previous_sink(it->previous_user, level, text);
+    }
+}
+
+static mor_status find(mor_context *context, const mor_safety_request *request, mor_safety *it)
+{
     it->setup.registry = request->registry;
     it->setup.stop = request->stop;
     it->setup.report = request->report;
@@ -259,6 +277,18 @@ mor_status mor_safety_find(mor_context *context, const mor_safety_request *reque
     return MOR_OK;
 }
 
+mor_status mor_safety_find(mor_context *context, const mor_safety_request *request, mor_safety *it)
+{
+    listener ear = {context, &it->warnings, context->log_sink, context->log_user};
+    memset(it, 0, sizeof *it);
+    context->log_sink = hear;
+    context->log_user = &ear;
+    const mor_status status = find(context, request, it);
+    context->log_sink = ear.previous_sink;
+    context->log_user = ear.previous_user;
+    return status;
+}
+
 void mor_safety_clear(mor_context *context, mor_safety *it)
 {
     mor_safety_body_clear(context, &it->body);
@@ -268,5 +298,6 @@ void mor_safety_clear(mor_context *context, mor_safety *it)
         MOR_FREE(context, &it->trials[k].samples);
     }
     mor_reduced_case_free(context, &it->setup.reduced);
+    mor_run_warnings_clear(context, &it->warnings);
     memset(it, 0, sizeof *it);
 }

@@ -3,6 +3,7 @@
 #ifndef MOR_CASES_DRIVER_SAFETY_SAFETY_H
 #define MOR_CASES_DRIVER_SAFETY_SAFETY_H
 
+#include "cases/driver/run/run_warnings.h"
 #include "cases/driver/safety/safety_body.h"
 #include "cases/driver/safety/safety_search.h"
 #include "cases/driver/safety/safety_trial.h"
@@ -37,6 +38,7 @@ typedef struct mor_safety {
     mor_simulation *mechanism; /* at the end of the failing trial of the smallest factor; NULL: none failed; owned */
     int mechanism_trial;       /* its index */
     mor_safety_body body;      /* of that trial */
+    mor_run_warnings warnings; /* of the search and of the simulations in it */
 } mor_safety;
 
 /** Finds the factor of safety.

@@ -104,9 +104,9 @@ static void put_number(FILE *out, const char *name, double value, const char *en
     }
 }
 
-static void put_text(FILE *out, const char *name, const char *text, const char *end)
+static void put_string(FILE *out, const char *text, const char *end)
 {
-    fprintf(out, "\"%s\": \"", name);
+    putc('"', out);
     for (const unsigned char *c = (const unsigned char *)text; *c != '\0'; ++c) {
         if (*c < 0x20) {
             fprintf(out, "\\u%04x", *c);
@@ -115,6 +115,12 @@ static void put_text(FILE *out, const char *name, const char *text, const char *
         }
     }
     fprintf(out, "\"%s", end);
+}
+
+static void put_text(FILE *out, const char *name, const char *text, const char *end)
+{
+    fprintf(out, "\"%s\": ", name);
+    put_string(out, text, end);
 }
 
 static void put_rules(const mor_safety *it, FILE *out)
@@ -189,6 +195,16 @@ static void put_trials(const mor_safety *it, FILE *out)
     fprintf(out, "\n  ]\n");
 }
 
+static void put_warnings(const mor_safety *it, FILE *out)
+{
+    fprintf(out, "  \"warnings\": [");
+    for (int k = 0; k < it->warnings.n; ++k) {
+        fprintf(out, "\n    ");
+        put_string(out, it->warnings.texts[k], k + 1 < it->warnings.n ? "," : "");
+    }
+    fprintf(out, it->warnings.n > 0 ? "\n  ],\n" : "],\n");
+}
+
 mor_status mor_safety_write_summary(mor_context *context, const mor_safety *it, const mor_safety_request *request,
                                     const mor_safety_provenance *provenance, const char *folder)
 {
@@ -213,6 +229,7 @@ mor_status mor_safety_write_summary(mor_context *context, const mor_safety *it, 
     put_soils(it, out);
     put_rules(it, out);
     put_body(it, out);
+    put_warnings(it, out);
     put_trials(it, out);
     fprintf(out, "}\n");
     return mor_durable_file_commit(context, &file);

@@ -77,8 +77,13 @@ static mor_status convert_text(const mor_case_reader *reader, const mor_case_nod
     char why[ALLOWED_BYTES];
     char advice[ALLOWED_BYTES];
     snprintf(why, sizeof why, "%.200s", reader->context->message);
+    double weight = 0.0;
     if (strcmp(schema->unit, "1") == 0) {
         snprintf(advice, sizeof advice, "write a plain number");
+    } else if (strcmp(schema->unit, "kg/m3") == 0 &&
+               mor_units_convert(reader->context, reader->units, node->text, "N/m3", &weight) == MOR_OK) {
+        snprintf(advice, sizeof advice, "a unit weight is a density times gravity: write \"%.5g kg/m3\" for 9.81 m/s2",
+                 weight / 9.81);
     } else {
         snprintf(advice, sizeof advice, "write a number, or a number and a unit that converts to %s", schema->unit);
     }

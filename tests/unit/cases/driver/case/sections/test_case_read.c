@@ -265,6 +265,8 @@ static void what_belongs_together_is_demanded_together(void **state)
                 {"scale.length=0", "out of range"},
                 {"placement.angle=-35", "write \"-35 deg\""},
                 {"placement.angle=\"400\"", "more than a full revolution"},
+                {"soil[0].material.density=19.62 kN/m3", "write \"2000 kg/m3\" for 9.81 m/s2"},
+                {"soil[0].material.density=2000 Pa", "a unit that converts to kg/m3"},
                 {"dimension=2", "in plane strain"}};
     case_reading *f = *state;
     for (size_t k = 0; k < sizeof rows / sizeof rows[0]; ++k) {
