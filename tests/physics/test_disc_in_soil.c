@@ -52,7 +52,7 @@ static const char *const fluid[] = {
 static double find_strength(const char *const *soil, const char *const *disc)
 {
     enum { SAMPLES = 19 };
-    scene *it = scene_new(&(scene_request){squeezed, (const char *const *[]){disc, soil}, 2, 2});
+    scene *it = scene_new(&(scene_request){squeezed, (const char *const *[]){disc, soil}, 2, 1});
     double sum = 0.0;
     for (int k = 0; k < SAMPLES; ++k) {
         const double time = 0.012 + 0.001 * k;
