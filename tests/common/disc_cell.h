@@ -18,8 +18,8 @@
  *  How much a rigid disc in the middle of a square changes the stress that it takes to squeeze the square between walls
  *  without friction, by finite elements: a quarter of it with 9-node elements, in plane strain without change of volume
  *  (a penalty with 2 x 2 points). The material is a viscous fluid, or perfectly plastic with a shear strength of one:
- *  then the motion is that which dissipates least, which is the collapse load of limit analysis, from above (Hill
- *  (1951)). It is found by fluids whose viscosity is the strength over the rate of shear of the one before. */
+ *  then the motion is that which dissipates least, whose power gives the collapse load of limit analysis (Hill (1951)).
+ *  It is approached from above by fluids whose viscosity is the strength over the rate of shear of the one before. */
 
 /** One cell. */
 typedef struct disc_cell {
@@ -98,7 +98,8 @@ static inline void cell_add(cell_work *work, const cell_point *point, const doub
     }
 }
 
-/** Places the nodes: along angles from the disc to the walls, closer together at the disc; gives the motion of walls,
+/** Places the nodes: along angles from the disc to the walls, by the square of the part of the way, so that rates may grow
+ *  without bound at the disc, as in bands of shear along it; gives the motion of walls,
  *  planes of symmetry and of a disc that soil sticks to, at a strain rate of one. */
 static inline void cell_set_up(const disc_cell *cell, cell_work *work)
 {

@@ -12,7 +12,7 @@
 #define DENSITY 1000.0 /* kg/m3 */
 
 static const char sheet[] =
-    "dimension = 2; spacing = '10 mm'; end = '10 s';"
+    "dimension = 2; spacing = '10 mm'; end = '12 s';"
     "domain = { min = ('0 m', '-0.1 m'); max = ('0.2 m', '0.4 m'); periodic = 'x'; };"
     "soil = ( { name = 'mud'; shape = { type = 'box'; min = ('0 m', '0 m'); max = ('0.2 m', '0.2 m'); };"
     "  material = { model = 'bingham'; density = 1000; bulk_modulus = '1 MPa'; shear_modulus = '100 kPa';"
@@ -26,15 +26,15 @@ typedef struct mud {
     double slope;     /* a, degrees */
     double yield;     /* Pa */
     double viscosity; /* Pa s */
-    double time;      /* until disturbances have decayed, s */
+    double time;      /* four times that in which disturbances decay, s */
     const char *lattice;
 } mud;
 
 static void sheet_keeps_the_profile_of_bingham(void **state)
 {
-    static const mud rows[] = {{15.0, 150.0, 10.0, 3.0, "lattice.jitter=0"},
-                               {15.0, 150.0, 10.0, 3.0, "lattice.jitter=0.2"},
-                               {1.5, 15.0, 5.0, 6.0, "lattice.jitter=0"}};
+    static const mud rows[] = {{15.0, 150.0, 10.0, 6.0, "lattice.jitter=0"},
+                               {15.0, 150.0, 10.0, 6.0, "lattice.jitter=0.2"},
+                               {1.5, 15.0, 5.0, 12.0, "lattice.jitter=0"}};
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
         const mud *it = &rows[k];
@@ -59,9 +59,10 @@ static void sheet_keeps_the_profile_of_bingham(void **state)
         scene_free(found);
         print_message("%g degrees, %s: momentum %.4g of %.4g kg/s, %+.1f %%\n", it->slope, it->lattice, momentum,
                       expected, 100.0 * (momentum / expected - 1.0));
-        /* 14 rows are sheared, whose curvature is seen to a percent or so; hourglass control adds up to 1 % of the
-         * pressure to the strength, here a twentieth of the yield stress. */
-        scene_expect_near("momentum of the sheet", momentum, expected, 0.04 * expected);
+        /* Hourglass control resists where the curvature of the profile ends, by up to 1 % of the pressure, 0.4 of the
+         * smaller yield stress: that sheet is 2.3, 3.6 and 6.8 % slow with limits of 0.003, 0.01 and 0.03, and 10 %
+         * without the control, when its rows break up. */
+        scene_expect_near("momentum of the sheet", momentum, expected, 0.05 * expected);
     }
 }
 

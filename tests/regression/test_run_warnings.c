@@ -332,7 +332,7 @@ static void warnings_are_read_from_a_log_each_once(void **state)
         mor_run_warnings_add(&folder->context, &warnings, text);
     }
     assert_int_equal(warnings.n, MOR_RUN_WARNINGS_MAX);
-    program_expect_text(warnings.texts[MOR_RUN_WARNINGS_MAX - 1], "there are more warnings: see log.txt");
+    program_expect_text(warnings.texts[MOR_RUN_WARNINGS_MAX - 1], "there are more warnings, of which the log tells");
     mor_run_warnings_clear(&folder->context, &warnings);
     assert_int_equal(warnings.n, 0);
 }

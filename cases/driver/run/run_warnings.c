@@ -35,7 +35,7 @@ bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, cons
         return false;
     }
     const bool is_last = warnings->n == MOR_RUN_WARNINGS_MAX - 1;
-    char *copy = copy_text(context, is_last ? "there are more warnings: see log.txt" : text);
+    char *copy = copy_text(context, is_last ? "there are more warnings, of which the log tells" : text);
     if (copy == NULL) {
         return false;
     }

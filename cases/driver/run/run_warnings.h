@@ -16,14 +16,14 @@ enum { MOR_RUN_WARNINGS_MAX = 64 };
 /** Begins warnings that belong to the end of a run: a run that is resumed beyond its end finds them again. */
 #define MOR_RUN_WARNING_AT_END "at the end of the run "
 
-/** The texts of a run. Zeroed: none. Owner: the run's files, which end it with mor_run_warnings_clear. */
+/** The texts of a run. Zeroed: none. Owner: the run's files, or a search for a factor of safety, which end it with mor_run_warnings_clear. */
 typedef struct mor_run_warnings {
     char *texts[MOR_RUN_WARNINGS_MAX];   /* shape [n]; zero-terminated; owned */
     bool is_shown[MOR_RUN_WARNINGS_MAX]; /* shape [n]; to whoever runs it, when it arose */
     int n;
 } mor_run_warnings;
 
-/** Adds a text unless it is there already. The last place says that log.txt has more.
+/** Adds a text unless it is there already. The last place says that the log has more.
  *  @param text     [in]      zero-terminated
  *  Returns: whether the text was new and had room. */
 bool mor_run_warnings_add(mor_context *context, mor_run_warnings *warnings, const char *text);

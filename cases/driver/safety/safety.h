@@ -38,7 +38,7 @@ typedef struct mor_safety {
     mor_simulation *mechanism; /* at the end of the failing trial of the smallest factor; NULL: none failed; owned */
     int mechanism_trial;       /* its index */
     mor_safety_body body;      /* of that trial */
-    mor_run_warnings warnings; /* of the search and of the simulations in it */
+    mor_run_warnings warnings; /* of the start and of the result; trials log nothing */
 } mor_safety;
 
 /** Finds the factor of safety.
