@@ -98,9 +98,9 @@ static inline void cell_add(cell_work *work, const cell_point *point, const doub
     }
 }
 
-/** Places the nodes: along angles from the disc to the walls, by the square of the part of the way, so that rates may grow
- *  without bound at the disc, as in bands of shear along it; gives the motion of walls,
- *  planes of symmetry and of a disc that soil sticks to, at a strain rate of one. */
+/** Places the nodes: along angles from the disc to the walls, by the square of the part of the way, so that rates may
+ *  grow without bound at the disc, as in bands of shear along it; gives the motion of walls, planes of symmetry and of
+ *  a disc that soil sticks to, at a strain rate of one. */
 static inline void cell_set_up(const disc_cell *cell, cell_work *work)
 {
     for (int k = 0; k < CELL_NODES; ++k) {

@@ -67,9 +67,9 @@ static double find_strength(const char *const *soil, const char *const *disc)
 
 /* Ratios of soil with a disc to soil without. A radius that is off by a tenth of a spacing, a hundredth of it, changes
  * them by 2 % of what the disc changes at all. The finite elements are off by 0.004 for clay (30 fluids in turn, from
- * above), by less for a fluid. Where particles are spaced unlike along the axes, here by up to 3 %, the pressures on the
- * walls differ by 0.1 % of themselves, which is 0.4 % of the stress that squeezes the clay, and 0.8 % of that in the
- * fluid. */
+ * above), by less for a fluid. Where particles are spaced unlike along the axes, here by up to 3 %, the pressures on
+ * the walls differ by 0.1 % of themselves, which is 0.4 % of the stress that squeezes the clay, and 0.8 % of that in
+ * the fluid. */
 static void expect_strengths(const char *const *soil, bool is_plastic)
 {
     const double tolerance = 0.02;

@@ -16,7 +16,8 @@ enum { MOR_RUN_WARNINGS_MAX = 64 };
 /** Begins warnings that belong to the end of a run: a run that is resumed beyond its end finds them again. */
 #define MOR_RUN_WARNING_AT_END "at the end of the run "
 
-/** The texts of a run. Zeroed: none. Owner: the run's files, or a search for a factor of safety, which end it with mor_run_warnings_clear. */
+/** The texts of a run. Zeroed: none. Owner: the run's files, or a search for a factor of safety, which end it with
+ *  mor_run_warnings_clear. */
 typedef struct mor_run_warnings {
     char *texts[MOR_RUN_WARNINGS_MAX];   /* shape [n]; zero-terminated; owned */
     bool is_shown[MOR_RUN_WARNINGS_MAX]; /* shape [n]; to whoever runs it, when it arose */
