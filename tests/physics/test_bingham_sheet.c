@@ -27,14 +27,15 @@ typedef struct mud {
     double yield;     /* Pa */
     double viscosity; /* Pa s */
     double time;      /* four times that in which disturbances decay, s */
+    double tolerance; /* of the momentum, 1 */
     const char *lattice;
 } mud;
 
 static void sheet_keeps_the_profile_of_bingham(void **state)
 {
-    static const mud rows[] = {{15.0, 150.0, 10.0, 6.0, "lattice.jitter=0"},
-                               {15.0, 150.0, 10.0, 6.0, "lattice.jitter=0.2"},
-                               {1.5, 15.0, 5.0, 12.0, "lattice.jitter=0"}};
+    static const mud rows[] = {{15.0, 150.0, 10.0, 6.0, 0.03, "lattice.jitter=0"},
+                               {15.0, 150.0, 10.0, 6.0, 0.03, "lattice.jitter=0.2"},
+                               {1.5, 15.0, 5.0, 12.0, 0.05, "lattice.jitter=0"}};
     (void)state;
     for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
         const mud *it = &rows[k];
@@ -59,10 +60,11 @@ static void sheet_keeps_the_profile_of_bingham(void **state)
         scene_free(found);
         print_message("%g degrees, %s: momentum %.4g of %.4g kg/s, %+.1f %%\n", it->slope, it->lattice, momentum,
                       expected, 100.0 * (momentum / expected - 1.0));
-        /* Hourglass control resists where the curvature of the profile ends, by up to 1 % of the pressure, 0.4 of the
-         * smaller yield stress: that sheet is 2.3, 3.6 and 6.8 % slow with limits of 0.003, 0.01 and 0.03, and 10 %
-         * without the control, when its rows break up. */
-        scene_expect_near("momentum of the sheet", momentum, expected, 0.05 * expected);
+        /* Hourglass control resists where the curvature of the profile ends, by up to 1 % of the pressure there: 4 % of
+         * the larger yield stress, which would slow that sheet by 2.6 %, and 0.4 of the smaller one. That sheet is 2.3,
+         * 3.6 and 6.8 % slow with limits of 0.003, 0.01 and 0.03, and 10 % without the control, when its rows break
+         * up. */
+        scene_expect_near("momentum of the sheet", momentum, expected, it->tolerance * expected);
     }
 }
 

@@ -69,10 +69,10 @@ static double find_strength(const char *const *soil, const char *const *disc)
  * them by 2 % of what the disc changes at all. The finite elements are off by 0.004 for clay (30 fluids in turn, from
  * above), by less for a fluid. Where particles are spaced unlike along the axes, here by up to 3 %, the pressures on
  * the walls differ by 0.1 % of themselves, which is 0.4 % of the stress that squeezes the clay, and 0.8 % of that in
- * the fluid. */
+ * the fluid. Together 0.010 for clay and 0.013 for the fluid. */
 static void expect_strengths(const char *const *soil, bool is_plastic)
 {
-    const double tolerance = 0.02;
+    const double tolerance = 0.015;
     const double alone = find_strength(soil, none);
     const double stuck = disc_cell_strength(&(disc_cell){0.5 * WIDTH, RADIUS, true, is_plastic});
     const double slips = disc_cell_strength(&(disc_cell){0.5 * WIDTH, RADIUS, false, is_plastic});
