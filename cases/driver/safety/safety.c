@@ -243,7 +243,7 @@ typedef struct listener {
     void *previous_user;
 } listener;
 
-static void hear(void *user, mor_log_level level, const char *text)
+static void keep_warning(void *user, mor_log_level level, const char *text)
 {
     const listener *it = user;
     if (level == MOR_LOG_WARNING) {
@@ -279,13 +279,13 @@ static mor_status find(mor_context *context, const mor_safety_request *request, 
 
 mor_status mor_safety_find(mor_context *context, const mor_safety_request *request, mor_safety *it)
 {
-    listener ear = {context, &it->warnings, context->log_sink, context->log_user};
+    listener listening = {context, &it->warnings, context->log_sink, context->log_user};
     memset(it, 0, sizeof *it);
-    context->log_sink = hear;
-    context->log_user = &ear;
+    context->log_sink = keep_warning;
+    context->log_user = &listening;
     const mor_status status = find(context, request, it);
-    context->log_sink = ear.previous_sink;
-    context->log_user = ear.previous_user;
+    context->log_sink = listening.previous_sink;
+    context->log_user = listening.previous_user;
     return status;
 }
 
