@@ -82,6 +82,18 @@ static inline int mor_isa_is_usable(int isa)
     return isa == MOR_ISA_BASELINE;
 }
 
+/** Whether this processor works on registers of 512 bits in two halves, so that they take as long as two of 256 bits:
+ *  1 or 0. Those of AMD's family 25 that have AVX-512 do (Zen 4). */
+static inline int mor_isa_has_halves(void)
+{
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    return __builtin_cpu_is("amdfam19h") != 0;
+#else
+    return 0;
+#endif
+}
+
 /** The variant to take: the fastest that was built and runs on this processor, always the same on one machine; or the
  *  one asked for, as tests do.
  *  @param name [in]  zero-terminated; "baseline", "avx2", "avx512"; nullable: the fastest

@@ -28,7 +28,8 @@ typedef uint64_t unsigned_bits;
 
 /* Particles in one register. A cluster of eight is served in 8 / LANES parts, each with the arithmetic of the others,
  * so that a particle's sums do not depend on the width. Eight singles fill half of the widest register, and a cluster
- * has no more: there each particle has two lanes next to one another, for two TARGETS of a loop over pairs. */
+ * has no more: there each particle has two lanes next to one another, for two TARGETS of a loop over pairs, unless the
+ * file defines MOR_ONE_TARGET. */
 #if defined(__AVX512F__) || (defined(__AVX__) && defined(MOR_SINGLE))
 #define LANES 8
 #elif defined(MOR_SINGLE)
@@ -38,7 +39,7 @@ typedef uint64_t unsigned_bits;
 #else
 #define LANES 2
 #endif
-#if defined(__AVX512F__) && defined(MOR_SINGLE)
+#if defined(__AVX512F__) && defined(MOR_SINGLE) && !defined(MOR_ONE_TARGET)
 #define TARGETS 2
 #else
 #define TARGETS 1

@@ -338,7 +338,7 @@ static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s
     }
     fprintf(out, "  speed now               %.2f M %s/s with %d thread%s (%s)\n",
             1e-6 * (double)mor_simulation_counted_particles(s) / now->seconds, mor_simulation_counted_unit(s),
-            context->n_threads, context->n_threads == 1 ? "" : "s", mor_pair_select(NULL)->instruction_set);
+            context->n_threads, context->n_threads == 1 ? "" : "s", mor_pair_select(NULL)->registers);
     print_expected_time(out, s, now, touching, is_same);
     return MOR_OK;
 }

@@ -4,13 +4,16 @@
 
 #include "core/base/isa.h"
 
-MOR_ISA_DECLARE(const mor_pair_table *, mor_pair_table, (void));
+#include <string.h>
+
+MOR_ISA_DECLARE(const mor_pair_table *, mor_pair_table, (int has_halves));
 
 const mor_pair_table *mor_pair_select(const char *name)
 {
-    static const mor_pair_table *(*const tables[MOR_ISA_COUNT])(void) = MOR_ISA_VARIANTS(mor_pair_table);
-    const int isa = mor_isa_select(name);
-    return isa < 0 ? NULL : tables[isa]();
+    static const mor_pair_table *(*const tables[MOR_ISA_COUNT])(int has_halves) = MOR_ISA_VARIANTS(mor_pair_table);
+    const bool asks_for_halves = name != NULL && strcmp(name, "avx512-halves") == 0;
+    const int isa = mor_isa_select(asks_for_halves ? "avx512" : name);
+    return isa < 0 ? NULL : tables[isa](asks_for_halves || (name == NULL && mor_isa_has_halves()));
 }
 
 static int find_soil_of_list(const int32_t *list, int32_t count, const double *of_soil)

@@ -398,7 +398,9 @@ INLINE void take_totals(const double *totals, const signed char *powers, const i
 #endif
 
 /* The loops of a precision: mor_pair_momentum_2d_avx2, mor_pair_mixed_momentum_2d_avx2, and so on. */
-#if defined(MOR_SINGLE)
+#if defined(MOR_ONE_TARGET)
+#define LOOP_NAME(name) MOR_ISA_NAME(mor_pair_halves_##name)
+#elif defined(MOR_SINGLE)
 #define LOOP_NAME(name) MOR_ISA_NAME(mor_pair_mixed_##name)
 #else
 #define LOOP_NAME(name) MOR_ISA_NAME(mor_pair_##name)
@@ -427,6 +429,18 @@ void MOR_ISA_NAME(mor_pair_mixed_gradient_2d)(const mor_pair_constants *c, const
 /** As mor_pair_gradient_3d, pairs in single precision. */
 void MOR_ISA_NAME(mor_pair_mixed_gradient_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays, int64_t first,
                                               int64_t last);
+/** As mor_pair_mixed_momentum_2d, with AVX-512 alone: in registers of 256 bits. */
+void MOR_ISA_NAME(mor_pair_halves_momentum_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                                               int64_t first, int64_t last);
+/** As mor_pair_mixed_momentum_3d, with AVX-512 alone: in registers of 256 bits. */
+void MOR_ISA_NAME(mor_pair_halves_momentum_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                                               int64_t first, int64_t last);
+/** As mor_pair_mixed_gradient_2d, with AVX-512 alone: in registers of 256 bits. */
+void MOR_ISA_NAME(mor_pair_halves_gradient_2d)(const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                                               int64_t first, int64_t last);
+/** As mor_pair_mixed_gradient_3d, with AVX-512 alone: in registers of 256 bits. */
+void MOR_ISA_NAME(mor_pair_halves_gradient_3d)(const mor_pair_constants *c, const mor_pair_arrays *arrays,
+                                               int64_t first, int64_t last);
 /** Sums V_j k (stress_i - stress_j) (x) (r_i - r_j) over the soil neighbors j of the particles of a cluster.
  *  @param cluster [in]   of the particles
  *  @param sums    [out]  shape [6, 3, 8]; by components of the stress, of the separation and particles; unit Pa m4

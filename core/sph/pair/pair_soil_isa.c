@@ -80,22 +80,33 @@ static void regularize_range(const mor_pair_constants *c, const mor_pair_arrays 
     }
 }
 
-const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void);
+/* The loops in single precision: in whole registers of 512 bits, or in those of 256. */
+#define WHOLE(name) MOR_ISA_NAME(mor_pair_mixed_##name)
+#define WHOLE_TEXT MOR_ISA_TEXT(MOR_ISA)
+#if defined(__AVX512F__)
+#define HALVES(name) MOR_ISA_NAME(mor_pair_halves_##name)
+enum { WHOLE_BITS = 512, HALVES_BITS = 256 };
+#define HALVES_TEXT MOR_ISA_TEXT(MOR_ISA) ", single precision in 256 bits"
+#else
+#define HALVES_TEXT WHOLE_TEXT
+#define HALVES(name) WHOLE(name)
+enum { WHOLE_BITS = LANES == 2 ? 128 : 256, HALVES_BITS = WHOLE_BITS };
+#endif
 
-const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(void)
+#define TABLE(kind)                                                                                                    \
+    {                                                                                                                  \
+        MOR_ISA_TEXT(MOR_ISA), kind##_TEXT, kind##_BITS,                                                               \
+            {MOR_ISA_NAME(mor_pair_momentum_2d), MOR_ISA_NAME(mor_pair_momentum_3d)},                                  \
+            {MOR_ISA_NAME(mor_pair_gradient_2d), MOR_ISA_NAME(mor_pair_gradient_3d)},                                  \
+            {kind(momentum_2d), kind(momentum_3d)}, {kind(gradient_2d), kind(gradient_3d)}, regularize_range,          \
+            MOR_ISA_NAME(mor_pair_kernel), MOR_ISA_NAME(mor_pair_tangent), MOR_ISA_NAME(mor_pair_mean),                \
+            MOR_ISA_NAME(mor_pair_faces), MOR_ISA_NAME(mor_pair_share), diffuse_range                                  \
+    }
+
+const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(int has_halves);
+
+const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(int has_halves)
 {
-    static const mor_pair_table table = {
-        MOR_ISA_TEXT(MOR_ISA),
-        {MOR_ISA_NAME(mor_pair_momentum_2d), MOR_ISA_NAME(mor_pair_momentum_3d)},
-        {MOR_ISA_NAME(mor_pair_gradient_2d), MOR_ISA_NAME(mor_pair_gradient_3d)},
-        {MOR_ISA_NAME(mor_pair_mixed_momentum_2d), MOR_ISA_NAME(mor_pair_mixed_momentum_3d)},
-        {MOR_ISA_NAME(mor_pair_mixed_gradient_2d), MOR_ISA_NAME(mor_pair_mixed_gradient_3d)},
-        regularize_range,
-        MOR_ISA_NAME(mor_pair_kernel),
-        MOR_ISA_NAME(mor_pair_tangent),
-        MOR_ISA_NAME(mor_pair_mean),
-        MOR_ISA_NAME(mor_pair_faces),
-        MOR_ISA_NAME(mor_pair_share),
-        diffuse_range};
-    return &table;
+    static const mor_pair_table tables[2] = {TABLE(WHOLE), TABLE(HALVES)};
+    return &tables[has_halves != 0];
 }

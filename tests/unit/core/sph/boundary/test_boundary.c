@@ -150,7 +150,7 @@ static bool is_reached(const meeting *m, const mor_pair_slot *slot, int32_t poin
 static void short_lists_of_slots_hold_the_points_in_reach_alone(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < 2 * n_tables; ++option) {
         meeting *m = open_meeting(2 + option % 2, MOR_WALL_STRESS_UNIFORM);
@@ -176,7 +176,7 @@ static void short_lists_of_slots_hold_the_points_in_reach_alone(void **state)
 static void velocity_of_a_rock_is_the_mean_by_kernel_values(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < 2 * n_tables; ++option) {
         meeting *m = open_meeting(2 + option % 2, MOR_WALL_STRESS_UNIFORM);
@@ -215,7 +215,7 @@ static void velocity_of_a_rock_is_the_mean_by_kernel_values(void **state)
 static void forces_on_points_have_force_and_moment_of_the_push(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < 2 * 2 * n_tables; ++option) {
         meeting *m =

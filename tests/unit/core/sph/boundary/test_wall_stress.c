@@ -185,7 +185,7 @@ static double divergence_of(const assembly *a, int i, const double *gradient, do
 static void divergence_of_every_table_is_that_of_a_double_loop(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < 2 * n_tables; ++option) {
         floor_case f;
@@ -253,7 +253,7 @@ static double compare_divergence(const floor_case *f, const double *before, doub
 static void divergence_in_mixed_precision_differs_by_roundings(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     const mor_images none = {0};
     for (int option = 0; option < 2 * n_tables; ++option) {

@@ -81,7 +81,7 @@ static void check_exchange(const mor_pair_table *table, int dimension, uint64_t 
 static void riemann_solution_is_the_same_from_both_sides(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < 2 * n_tables; ++option) {
         for (uint64_t id = 0; id < 30; ++id) {
@@ -139,7 +139,7 @@ static void dissipation_acts_on_the_motion_of_its_mode_that_strain_rates_leave(v
     (void)state;
     static const double explained[] = {0.0, 0.25, 0.7, 1.0, 1.9, -0.4};
     enum { N_EXPLAINED = sizeof explained / sizeof *explained };
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < n_tables * 3 * 2 * N_EXPLAINED; ++option) {
         const double closing = option % 2 == 0 ? 0.5 : -0.5; /* both move by half of it */
@@ -195,6 +195,8 @@ static void check_wide_registers(assembly *a, const mor_pair_table *table)
     (void)table;
     assembly_run(a, mor_pair_select("avx2"), 1000, &narrow);
     assembly_run(a, mor_pair_select("avx512"), 1000, &wide);
+    assert_same(&narrow, &wide, (size_t)(MOR_KERNEL_SUMS * a->n));
+    assembly_run(a, mor_pair_select("avx512-halves"), 1000, &wide);
     assert_same(&narrow, &wide, (size_t)(MOR_KERNEL_SUMS * a->n));
     if (!a->is_mixed) {
         a->is_mixed = true;
@@ -495,7 +497,7 @@ static void uniform_motion_has_no_gradient(void **state)
 static void linear_motion_on_a_lattice_has_its_own_gradient_times_the_moment(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     for (int option = 0; option < 2 * n_tables; ++option) {
         const int dimension = 2 + option % 2;
@@ -545,7 +547,7 @@ static void linear_motion_on_a_lattice_has_its_own_gradient_times_the_moment(voi
 static void particles_in_one_place_give_numbers(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     double points[3 * 20] = {0.0};
     for (int i = 10; i < 20; ++i) {

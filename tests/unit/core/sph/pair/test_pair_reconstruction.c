@@ -156,7 +156,7 @@ static void check_energy(assembly *a, const mor_pair_table *table)
 static void damping_takes_energy_but_not_more_than_without_strain_rates(void **state)
 {
     (void)state;
-    const mor_pair_table *tables[3];
+    const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
     assembly_for_mixed(check_energy);
     for (int option = 0; option < 2 * ASSEMBLY_FORMS * n_tables; ++option) {
