@@ -36,7 +36,7 @@ static bool has_present_spin(const void *owner)
 
 static bool has_fit(const void *owner)
 {
-    return ((const mor_soil *)owner)->continued != NULL;
+    return ((const mor_soil *)owner)->settings.scheme.velocity_gradient != 0;
 }
 
 static bool has_correction(const void *owner)
@@ -264,7 +264,9 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
     MOR_TRY(context, mor_soil_allocate_places(context, soil));
-    MOR_TRY(context, MOR_NEW(context, &soil->at_wall, soil->tree.n_clusters, "clusters at walls"));
+    MOR_TRY(context, mor_at_walls_init(context, &soil->at_walls, soil->tree.n_clusters));
+    soil->at_walls.has_continued = has_fit(soil);
+    soil->at_walls.has_closed = has_fit(soil) || mor_soil_has_last_spin(soil);
     if (mor_composite_is(soil->material)) {
         MOR_TRY(context, MOR_NEW(context, &soil->of_soil, padded * MOR_PAIR_OF_SOIL_SIZE, "soils of the particles"));
         MOR_TRY(context, MOR_NEW(context, &soil->one_soil, soil->tree.n_clusters, "soils of the clusters"));
@@ -272,13 +274,10 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (s->scheme.velocity_gradient != 0) {
-        MOR_TRY(context, MOR_NEW(context, &soil->continued, padded * 6, "moments continued into walls"));
-    }
-    if (mor_soil_has_last_spin(soil) || s->scheme.velocity_gradient != 0) {
+    if (soil->at_walls.has_closed) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
-    if (mor_soil_corrects_gradient(soil) || has_angular_momentum(soil)) {
+    if (has_correction(soil) || has_present_spin(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
     }
     if (has_angular_momentum(soil) || has_hourglass(soil) || has_mean_stress(soil)) {
@@ -378,9 +377,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->diffusion);
     MOR_FREE(context, &soil->field_records);
     MOR_FREE(context, &soil->moments);
-    MOR_FREE(context, &soil->corners);
-    MOR_FREE(context, &soil->continued);
-    MOR_FREE(context, &soil->at_wall);
+    mor_at_walls_clear(context, &soil->at_walls);
     MOR_FREE(context, &soil->closed);
     MOR_FREE(context, &soil->extra);
     mor_pair_singles_clear(context, &soil->singles);
@@ -395,13 +392,6 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->records);
     mor_set_clear(context, &soil->set);
     memset(soil, 0, sizeof *soil);
-}
-
-/* Room for the faces that particles see, once for all boundaries. */
-static mor_status make_corners(mor_context *context, mor_soil *soil)
-{
-    return soil->corners != NULL ? MOR_OK
-                                 : MOR_NEW(context, &soil->corners, soil->set.n_particles, "faces that particles see");
 }
 
 mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wall_request *request)
@@ -419,8 +409,9 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     MOR_TRY(context,
             mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
     mor_soil_contact_number(soil->walls, soil->n_walls, 0);
+    soil->at_walls.has_corners |= soil->walls[soil->n_walls].normals != NULL;
     soil->n_walls += 1;
-    return soil->walls[soil->n_walls - 1].normals != NULL ? make_corners(context, soil) : MOR_OK;
+    return MOR_OK;
 }
 
 mor_status mor_soil_fill_walls(mor_context *context, mor_soil *soil)
@@ -442,11 +433,9 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
                                              soil->settings.dimension, soil->tree.n_clusters));
     mor_soil_contact_number(soil->boundaries, soil->n_boundaries, MOR_SOIL_WALLS_MAX);
     soil->n_boundaries += 1;
+    soil->at_walls.has_corners |= boundary->normals != NULL;
     mor_soil_forget_lists(soil);
-    if (soil->sleep.states != NULL) {
-        MOR_TRY(context, mor_sleep_add_bodies(context, &soil->sleep, boundary->n_patches));
-    }
-    return boundary->normals != NULL ? make_corners(context, soil) : MOR_OK;
+    return soil->sleep.states != NULL ? mor_sleep_add_bodies(context, &soil->sleep, boundary->n_patches) : MOR_OK;
 }
 
 mor_status mor_soil_set_barrier(mor_context *context, mor_soil *soil, const mor_boundary *boundary,
@@ -497,11 +486,9 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
             soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
     }
     bytes += soil->of_soil != NULL ? padded * (MOR_PAIR_OF_SOIL_SIZE * sizeof(double) + 1.0 / MOR_CLUSTER) : 0.0;
-    const int n_tensors =
-        (soil->regularization != NULL) + (soil->moments != NULL) + (soil->continued != NULL) + (soil->closed != NULL);
+    const int n_tensors = (soil->regularization != NULL) + (soil->moments != NULL) + (soil->closed != NULL);
     bytes += n_tensors * padded * 6.0 * sizeof(double);
-    bytes += (double)soil->tree.n_clusters * sizeof *soil->at_wall;
-    bytes += soil->corners != NULL ? n * (double)sizeof *soil->corners : 0.0;
+    bytes += mor_at_walls_bytes(&soil->at_walls, soil->tree.n_clusters);
     bytes += soil->energy != NULL ? n * 5.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
     bytes += soil->settings.scheme.precision != 1

@@ -81,15 +81,13 @@ typedef struct mor_soil {
     int8_t *one_soil;       /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
     double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
     double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1; or NULL */
-    double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; or NULL; with moments,
-                             * as the next, of clusters at walls only */
-    double *continued;      /* shape [n_particles, 6]; what boundaries continue of them along themselves, 1; or NULL */
-    int8_t *at_wall;        /* shape [clusters]; patches of boundaries whose points the lists hold, at most 2; 1 */
+    double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; NULL where that is needed
+                             * beside boundaries alone */
+    mor_at_walls at_walls;  /* of the particles beside boundaries */
     double *extra;          /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
     mor_pair_singles singles; /* copies of what the pair loops read, with mixed precision; or zeroed */
     double *field_records;    /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
     double *diffusion;        /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
-    mor_contact_corner *corners; /* shape [n_particles]; faces that each sees; NULL: no wall has normals */
     double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
     mor_reduce_room room;        /* of reductions over particles */
     mor_sleep sleep;             /* soil at rest that is left out of steps */

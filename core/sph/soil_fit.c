@@ -7,18 +7,16 @@
 
 #include <string.h>
 
-void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, double *closed,
-                           double *continued)
+void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, const mor_at_walls *at)
 {
-    const int64_t n = soil->tree.n_clusters;
-    MOR_PARALLEL_FOR (context, cluster, n, MOR_BLOCK) {
-        const int64_t first = 6 * MOR_CLUSTER * cluster;
-        const bool is_read = soil->at_wall[cluster] && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_ASLEEP);
-        if (is_read) {
-            memcpy(closed + first, moments + first, 6 * MOR_CLUSTER * sizeof *closed);
-        }
-        if (is_read && continued != NULL) {
-            memset(continued + first, 0, 6 * MOR_CLUSTER * sizeof *continued);
+    enum { BYTES = 6 * MOR_CLUSTER * sizeof *moments };
+    MOR_PARALLEL_FOR (context, cluster, soil->tree.n_clusters, MOR_BLOCK) {
+        const int64_t first = mor_at_walls_first(at->places, cluster);
+        if (first >= 0 && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_ASLEEP)) {
+            memcpy(at->closed + 6 * first, moments + 6 * cluster * MOR_CLUSTER, BYTES);
+            if (at->continued != NULL) {
+                memset(at->continued + 6 * first, 0, BYTES);
+            }
         }
     }
 }
@@ -41,27 +39,26 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
     mor_soil *soil = owner;
     (void)step;
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
-    double *continued = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->continued);
+    const mor_at_walls *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->at_walls);
     const mor_soil_fit_job job = {
         .n_particles = soil->set.n_particles,
         .dimension = soil->settings.dimension,
         .volume_factor = soil->settings.scheme.lattice_normalization ? soil->lattice_moment : 1.0,
-        .at_wall = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_wall),
+        .wall_places = mor_view_read_shared(view, MOR_RESOURCE_LISTS, at->places),
         .moments = moments,
-        .closed = closed,
-        .continued = continued,
+        .closed = at->closed,
+        .continued = at->continued,
         .density = mor_view_read(view, MOR_FIELD_DENSITY),
         .flow = soil->settings.scheme.velocity_gradient == 2 ? mor_view_read(view, MOR_FIELD_FLOW) : NULL,
         .gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT),
         .density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE),
         .strain_rate = mor_view_write(view, MOR_FIELD_STRAIN_RATE)};
     mor_view_read_shared(view, MOR_RESOURCE_WALL_FORCES, soil->walls);
-    mor_soil_copy_moments(context, soil, moments, closed, continued);
+    mor_soil_copy_moments(context, soil, moments, at);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         const mor_soil_contact *contact =
             mor_view_read_shared(view, MOR_RESOURCE_WALL_SUMS, mor_soil_contact_at(soil, k));
-        mor_soil_contact_add_moments(context, contact, soil->set.n_particles, closed, continued);
+        mor_soil_contact_add_moments(context, contact, soil->set.n_particles, at);
     }
     mor_sleep_run(context, soil->sleep.states, soil->tree.n_clusters, fit_clusters, soil, &job);
     return MOR_OK;

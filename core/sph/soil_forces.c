@@ -81,26 +81,27 @@ static mor_status run_in_precision(mor_context *context, mor_soil *soil, mor_pai
 static void use_normals(mor_context *context, mor_soil *soil)
 {
     const int64_t n = soil->set.n_particles;
-    if (soil->corners == NULL) {
+    const mor_at_walls *at = &soil->at_walls;
+    if (!at->has_corners) {
         return;
     }
     MOR_PARALLEL_FOR (context, cluster, soil->tree.n_clusters, MOR_BLOCK) {
-        const int64_t first = cluster * MOR_CLUSTER;
-        const bool is_found = soil->at_wall[cluster] && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD);
-        for (int64_t i = first; is_found && i < first + MOR_CLUSTER && i < n; ++i) {
-            soil->corners[i].sees_any = false;
+        const int64_t first = mor_at_walls_first(at->places, cluster);
+        const bool is_found = first >= 0 && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD);
+        for (int64_t i = first; is_found && i < first + MOR_CLUSTER; ++i) {
+            at->corners[i].sees_any = false;
         }
     }
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
             mor_soil_contact_project(context, mor_soil_contact_at(soil, k), n,
-                                     soil->settings.scheme.coulomb_tension == 0, soil->at_wall, soil->corners);
+                                     soil->settings.scheme.coulomb_tension == 0, at);
         }
     }
-    mor_soil_contact_solve_corners(context, n, soil->at_wall, soil->sleep.states, soil->corners);
+    mor_soil_contact_solve_corners(context, n, soil->sleep.states, at);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         if (mor_soil_contact_at(soil, k)->normals != NULL) {
-            mor_soil_contact_close_corners(context, mor_soil_contact_at(soil, k), n, soil->corners);
+            mor_soil_contact_close_corners(context, mor_soil_contact_at(soil, k), n, at);
             mor_soil_contact_hold(context, mor_soil_contact_at(soil, k), soil->constants.smoothing_length, n);
         }
     }

@@ -128,11 +128,12 @@ typedef struct mor_soil_wall_sums {
     const double *scale; /* shape [n_particles]; factor on the sums of each particle, any unit; NULL: 1 */
     bool of_walls_only;  /* not of rocks */
     bool of_awake_only;  /* not for soil that sleeps */
+    const int32_t *places; /* of clusters in the field, see mor_at_walls; NULL: those of the particles */
 } mor_soil_wall_sums;
 
 /** Adds sums over walls and rocks to a field: out[i, a] += scale[i] * sum a of particle i.
  *  @param what [in]      which sums
- *  @param out  [in,out]  shape [n_particles, what->n_sums]; unit: of the sums times that of the scale */
+ *  @param out  [in,out]  shape [n_particles, what->n_sums] without places; unit: of the sums times that of the scale */
 void mor_soil_add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view, const mor_soil_wall_sums *what,
                             double *out);
 
@@ -158,11 +159,9 @@ static inline double mor_soil_moment_cofactors(const double *moment, int dimensi
 
 /** Copies moments of the particles of clusters that list a boundary and are awake; those of others that are awake are
  *  read where they are.
- *  @param moments   [in]   shape [n_particles padded to 8, 6], unit 1
- *  @param closed    [out]  same shape; the copy
- *  @param continued [out]  same shape; zero for the same particles; NULL: not wanted */
-void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, double *closed,
-                           double *continued);
+ *  @param moments [in]   shape [n_particles padded to 8, 6], unit 1
+ *  @param at      [out]  closed becomes the copy, continued zero, where it is wanted */
+void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, const mor_at_walls *at);
 
 /** Whether forces conserve angular momentum by a skew stress that was found in the last step. */
 bool mor_soil_has_last_spin(const void *owner);

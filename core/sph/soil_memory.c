@@ -45,10 +45,13 @@ static void run_memory(mor_context *context, const mor_soil *soil, const mor_soi
 }
 
 /* Adds the moments over walls. */
-static void add_walls(mor_context *context, mor_soil *soil, mor_view *view, double *closed)
+static void add_walls(mor_context *context, mor_soil *soil, mor_view *view, const int32_t *places, double *closed)
 {
-    const mor_soil_wall_sums sums = {
-        .first_sum = MOR_KERNEL_SUM_MOMENT, .n_sums = 6, .of_walls_only = true, .of_awake_only = true};
+    const mor_soil_wall_sums sums = {.first_sum = MOR_KERNEL_SUM_MOMENT,
+                                     .n_sums = 6,
+                                     .of_walls_only = true,
+                                     .of_awake_only = true,
+                                     .places = places};
     mor_soil_add_wall_sums(context, soil, view, &sums, closed);
 }
 
@@ -70,7 +73,7 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
     const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
     double *spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS);
     memset(closed, 0, (size_t)(6 * n) * sizeof *closed);
-    add_walls(context, soil, view, closed);
+    add_walls(context, soil, view, NULL, closed);
     mor_soil_sum_kernels(context, soil, view, records, add_moments, closed);
     run_memory(context, soil,
                &(mor_soil_memory_job){.n_particles = n,
@@ -92,10 +95,10 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
 static const double *close_moments(mor_context *context, mor_soil *soil, mor_view *view)
 {
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
-    mor_soil_copy_moments(context, soil, moments, closed, NULL);
-    add_walls(context, soil, view, closed);
-    return closed;
+    const mor_at_walls *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->at_walls);
+    mor_soil_copy_moments(context, soil, moments, at);
+    add_walls(context, soil, view, at->places, at->closed);
+    return at->closed;
 }
 
 /* What a soil takes over in a step of some length, s. */
@@ -122,7 +125,7 @@ mor_status mor_soil_remember(mor_context *context, void *owner, mor_view *view, 
                                .stress = mor_view_read(view, MOR_FIELD_STRESS),
                                .of_soil = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->of_soil),
                                .kinds = kinds,
-                               .at_wall = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_wall),
+                               .wall_places = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_walls.places),
                                .mean = mor_view_write(view, MOR_FIELD_MEAN_STRESS),
                                .flow = mor_view_write(view, MOR_FIELD_FLOW),
                                .hourglass_rate = mor_view_read(view, MOR_FIELD_HOURGLASS_RATE),

@@ -52,13 +52,14 @@ void mor_soil_add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view
             const int32_t cluster = contact->relation.occupied[place];
             const bool is_left = what->of_awake_only && mor_sleep_is(contact->sleep, cluster, MOR_SLEEP_ASLEEP);
             for (int64_t slot = contact->first_slot[place]; !is_left && slot < contact->first_slot[place + 1]; ++slot) {
-                const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+                const int64_t first = (int64_t)cluster * MOR_CLUSTER;
+                double *to = out + mor_at_walls_first(what->places, cluster) * n_sums;
                 for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n_particles; ++lane) {
                     const double *sums =
                         contact->sums + (slot * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS + what->first_sum;
                     const double factor = scale != NULL ? scale[first + lane] : 1.0;
                     for (int a = 0; a < n_sums; ++a) {
-                        out[(first + lane) * n_sums + a] += factor * sums[a];
+                        to[lane * n_sums + a] += factor * sums[a];
                     }
                 }
             }

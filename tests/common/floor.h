@@ -153,9 +153,10 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     mor_soil_contact_sum(context, &f->wall, table, constants, f->soil.records);
     if (f->wall.normals != NULL) {
         mor_contact_corner corners[ASSEMBLY_MAX] = {{.sees_any = false}};
-        mor_soil_contact_project(context, &f->wall, f->soil.n, !f->presses_only, NULL, corners);
-        mor_soil_contact_solve_corners(context, f->soil.n, NULL, NULL, corners);
-        mor_soil_contact_close_corners(context, &f->wall, f->soil.n, corners);
+        const mor_at_walls at = {.corners = corners};
+        mor_soil_contact_project(context, &f->wall, f->soil.n, !f->presses_only, &at);
+        mor_soil_contact_solve_corners(context, f->soil.n, NULL, &at);
+        mor_soil_contact_close_corners(context, &f->wall, f->soil.n, &at);
         mor_soil_contact_hold(context, &f->wall, constants->smoothing_length, f->soil.n);
     }
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation, NULL);

@@ -308,15 +308,6 @@ static void find_farthest(void *job, int64_t first, int64_t last, double *values
     }
 }
 
-void mor_soil_contact_count_patches(const mor_soil_contact *contact, int8_t *n_patches)
-{
-    for (int64_t place = 0; place < contact->relation.n_occupied; ++place) {
-        int8_t *count = n_patches + contact->relation.occupied[place];
-        const int64_t n = *count + contact->first_slot[place + 1] - contact->first_slot[place];
-        *count = n < 2 ? (int8_t)n : 2;
-    }
-}
-
 mor_status mor_soil_contact_check_lists(mor_context *context, const mor_soil_contact *contact,
                                         const mor_relation_check *soil, int64_t cluster)
 {

@@ -8,6 +8,7 @@
 #include "core/particle/images.h"
 #include "core/particle/relation_check.h"
 #include "core/particle/skin.h"
+#include "core/sph/boundary/at_walls.h"
 #include "core/sph/pair/pair.h"
 #include "core/sph/pair/pair_single.h"
 #include "core/sph/sleep/sleep.h"
@@ -109,16 +110,6 @@ typedef struct mor_contact_soil {
     double length;               /* of the step, s */
     int64_t n_particles;
 } mor_contact_soil;
-
-/** What a soil particle sees of faces with normals n, those of all boundaries together. */
-typedef struct mor_contact_corner {
-    double rest[3]; /* sum of kernel gradients, what is not along the faces of each; then what corners add, 1/m4 (m3) */
-    double faces[6]; /* sum of V (1 - (q/2)^4) n (x) n, symmetric tensor, m3 (m2 in plane strain); then what projects on
-                      * the directions in which several faces bear, 1; zero where one does */
-    bool sees_any;   /* the two are current */
-    bool is_solved;  /* they are those at last */
-    bool is_limited; /* friction limits all that acts along some face, and each keeps the force along its own normals */
-} mor_contact_corner;
 
 /** Powers of a particle in the audit of energy: what the forces of boundaries take, W (W/m). */
 enum { MOR_CONTACT_LOST /* from its motion */, MOR_CONTACT_GIVEN /* to walls that move */, MOR_CONTACT_POWERS };
@@ -263,10 +254,6 @@ mor_status mor_soil_contact_fill(mor_context *context, mor_soil_contact *contact
 mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contact, const mor_relation_points *soil,
                                   double reach);
 
-/** Counts which patches clusters of the soil list.
- *  @param n_patches [in,out]  shape [n_soil_clusters]; of all boundaries so far, 2 for more, 1 */
-void mor_soil_contact_count_patches(const mor_soil_contact *contact, int8_t *n_patches);
-
 /** Looks whether a cluster of the soil lists all points of the boundary that are near.
  *  @param soil    [in]  what is looked for in the soil itself, unit m
  *  @param cluster [in]  of the soil
@@ -312,27 +299,25 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
  *                              in given for mor_soil_contact_share_forces
  *  @param n_particles [in]      number of soil particles
  *  @param coulomb_pulls [in]    boundaries with Coulomb friction hold soil under tension
- *  @param at_wall     [in]      shape [clusters]; patches of all boundaries that are listed, at most 2: where it is one
- *                              corners are solved at once; NULL: not known
- *  @param corners     [in,out]  shape [n_particles]; added to, sees_any false at first */
+ *  @param at          [in,out]  corners are added to, sees_any false at first; where one patch is listed they are
+ *                              solved at once; patches may be NULL: not known */
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
-                              const int8_t *at_wall, mor_contact_corner *corners);
+                              const mor_at_walls *at);
 
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
  *  @param n_particles [in]  number of soil particles
- *  @param at_wall     [in]  shape [clusters]; 0 where no boundary is listed: left as it is; NULL: all are solved
  *  @param sleep       [in]  shape [clusters]; where soil is held it is left as it is; NULL: all is awake
- *  @param corners [in,out]  shape [n_particles] */
-void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *at_wall,
-                                    const int8_t *sleep, mor_contact_corner *corners);
+ *  @param at      [in,out]  its corners are solved */
+void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *sleep,
+                                    const mor_at_walls *at);
 
 /** Gives the faces that meet their part of the rest, each along its normal, so that kernel gradients over soil and all
  *  boundaries together still cancel. What each has brought to the rest itself is kept for the forces on it.
  *  @param contact     [in,out]  projected
  *  @param n_particles [in]      number of soil particles
- *  @param corners     [in]      shape [n_particles]; solved */
+ *  @param at          [in]      its corners are solved */
 void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
-                                    const mor_contact_corner *corners);
+                                    const mor_at_walls *at);
 
 /** Deepest that a face holds soil, smoothing lengths: what presses it deeper meets less and less resistance. */
 #define MOR_SOIL_CONTACT_DEEPEST 1.2
@@ -477,10 +462,9 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
  *  in the soil.
  *  @param contact     [in]      sums, stick and closure must be current
  *  @param n_particles [in]      number of soil particles
- *  @param closed      [in,out]  shape [n_particles, 6], unit 1; what is mirrored is added
- *  @param continued   [in,out]  shape [n_particles, 6], unit 1; what continues is added */
+ *  @param at          [in,out]  to closed what is mirrored is added, to continued what continues */
 void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *contact, int64_t n_particles,
-                                  double *closed, double *continued);
+                                  const mor_at_walls *at);
 
 /** Switches the barrier of a contact on or off.
  *  @param contact [in,out]  before the first step

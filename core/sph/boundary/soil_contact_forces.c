@@ -549,10 +549,9 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
     }
 }
 
-static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int64_t n_particles, double *closed,
-                             double *continued)
+static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int64_t n_particles, const mor_at_walls *at)
 {
-    const int64_t first = (int64_t)contact->slots[slot].cluster * MOR_CLUSTER;
+    const int64_t first = mor_at_walls_first(at->places, contact->slots[slot].cluster);
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
@@ -568,19 +567,19 @@ static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int6
         for (int a = 0; a < 6; ++a) {
             const double square = gradient[a % 3] * gradient[a < 3 ? a : (a - 2) % 3] / length2;
             const double flat = along * ((a < contact->dimension ? 1.0 : 0.0) - square);
-            closed[6 * (first + k) + a] += closure * across * square + stick * flat;
-            continued[6 * (first + k) + a] += closure * (1.0 - stick) * flat;
+            at->closed[6 * (first + k) + a] += closure * across * square + stick * flat;
+            at->continued[6 * (first + k) + a] += closure * (1.0 - stick) * flat;
         }
     }
 }
 
 void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *contact, int64_t n_particles,
-                                  double *closed, double *continued)
+                                  const mor_at_walls *at)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         const bool sleeps = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_ASLEEP);
         for (int64_t slot = contact->first_slot[place]; !sleeps && slot < contact->first_slot[place + 1]; ++slot) {
-            add_slot_moments(contact, slot, n_particles, closed, continued);
+            add_slot_moments(contact, slot, n_particles, at);
         }
     }
 }

@@ -14,10 +14,11 @@ typedef struct mor_soil_fit_job {
     int64_t n_particles;
     int dimension;           /* 2 or 3 */
     double volume_factor;    /* kernel's own moment over that of the gradients, 1 */
-    const int8_t *at_wall;   /* shape [clusters]; not 0 where a boundary is listed */
+    const int32_t *wall_places; /* shape [clusters]; of their particles in the arrays that are read at walls; -1: none
+                                 * is listed */
     const double *moments;   /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1 */
-    const double *closed;    /* shape [n_particles, 6]; with what boundaries close of them, 1; read at walls */
-    const double *continued; /* shape [n_particles, 6]; what boundaries continue of them, 1; likewise */
+    const double *closed;    /* shape [places * 8, 6]; with what boundaries close of them, 1; at walls */
+    const double *continued; /* shape [places * 8, 6]; what boundaries continue of them, 1; likewise */
     const double *density;   /* shape [n_particles], kg/m3 */
     const double *flow;      /* shape [n_particles]; 0: at rest, 1: flows, where the rate of shear is the sum's; 1;
                               * NULL: nowhere */
@@ -44,9 +45,9 @@ typedef struct mor_soil_memory_job {
     const double *stress;   /* shape [n_particles, 6], Pa */
     const double *of_soil;  /* shape [n_particles, MOR_PAIR_OF_SOIL_SIZE], units of the enum; NULL: first kind */
     const mor_soil_memory_kind *kinds; /* shape [n_kinds] */
-    const int8_t *at_wall;             /* shape [clusters]; not 0 where a boundary is listed; NULL: nowhere */
+    const int32_t *wall_places;        /* shape [clusters]; as in the fit; NULL: no boundary is listed */
     const double *moments;             /* shape [n_particles, 6], 1; for the skew stress, as are the next two */
-    const double *closed;              /* shape [n_particles, 6], 1; with those over walls; read of clusters at walls */
+    const double *closed;              /* shape [places * 8, 6], 1; with those over walls; at walls */
     const double *left;                /* shape [n_particles, 3], Pa; moment of hourglass forces; NULL: none */
     double *spin;                      /* shape [n_particles, 3]; skew stress, Pa; NULL: none */
     double *mean;                      /* shape [n_particles, 6]; recent mean of the stress, Pa; NULL: none */

@@ -205,9 +205,11 @@ INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimen
     for (int a = 0; a < 9; ++a) {
         sum[a] = gradient[a];
     }
-    if (job->at_wall[first / MOR_CLUSTER]) {
-        load_moments(job->closed + 6 * first, dimension, closed);
-        load_moments(job->continued + 6 * first, dimension, continued);
+    const int64_t place = job->wall_places[first / MOR_CLUSTER];
+    if (place >= 0) {
+        const int64_t row = 6 * (place * MOR_CLUSTER + first % MOR_CLUSTER);
+        load_moments(job->closed + row, dimension, closed);
+        load_moments(job->continued + row, dimension, continued);
         volume = fit_gradient(moment, closed, continued, gradient, dimension);
     } else {
         volume = fit_gradient(moment, moment, NULL, gradient, dimension);
@@ -216,7 +218,7 @@ INLINE void fit_part(const mor_soil_fit_job *job, int64_t first, const int dimen
         store_strain_rate(moment, gradient, job->strain_rate + 6 * first, n_lanes, dimension);
     }
     if (job->flow != NULL) {
-        remove_rotation(gradient, job->at_wall[first / MOR_CLUSTER] ? closed : moment, sum, dimension);
+        remove_rotation(gradient, place >= 0 ? closed : moment, sum, dimension);
         fade_shear(load(job->flow + first, 1, 0), sum, gradient, dimension);
     }
     store_first(job->gradient + 9 * first, 9, dimension == 3 ? 8 : 5, n_lanes, gradient);
@@ -278,12 +280,13 @@ INLINE void find_spin_stress(const vec *m, const vec *s, const vec *left, vec *s
 
 INLINE void remember_spin(const mor_soil_memory_job *job, const present *now, const int dimension)
 {
-    const bool is_at_wall = job->at_wall != NULL && job->at_wall[now->first / MOR_CLUSTER];
-    const double *moments = is_at_wall ? job->closed : job->moments;
+    const int64_t place = job->wall_places != NULL ? job->wall_places[now->first / MOR_CLUSTER] : -1;
+    const double *moments =
+        place >= 0 ? job->closed + 6 * (place * MOR_CLUSTER + now->first % MOR_CLUSTER) : job->moments + 6 * now->first;
     vec m[6];
     vec left[3] = {broadcast(0.0), broadcast(0.0), broadcast(0.0)};
     vec spin[3] = {broadcast(0.0), broadcast(0.0), broadcast(0.0)};
-    load_moments(moments + 6 * now->first, dimension, m);
+    load_moments(moments, dimension, m);
     if (job->left != NULL) {
         load_first(job->left + 3 * now->first, 3, 3, left);
     }

@@ -39,14 +39,14 @@ static void fill(world *w)
     }
 }
 
-static const int8_t at_wall[CLUSTERS] = {0, 1, 0};
+static const int32_t wall_places[CLUSTERS] = {-1, 0, -1};
 
 static mor_soil_fit_job find_job(world *w, int dimension, const double *flow)
 {
     return (mor_soil_fit_job){.n_particles = N,
                               .dimension = dimension,
                               .volume_factor = 0.97,
-                              .at_wall = at_wall,
+                              .wall_places = wall_places,
                               .moments = w->moments,
                               .closed = w->closed,
                               .continued = w->continued,
@@ -72,7 +72,7 @@ static void run(const mor_soil_lanes *lanes, int dimension, const mor_soil_memor
                                         .stress = w->stress,
                                         .of_soil = of_soil,
                                         .kinds = kinds,
-                                        .at_wall = at_wall,
+                                        .wall_places = wall_places,
                                         .moments = w->moments,
                                         .closed = w->closed,
                                         .left = w->left,
@@ -117,7 +117,8 @@ static double trace_of(const double *gradient, int dimension)
 /* The moments that the fit of a particle divides by, shape [3, 3]. */
 static void fill_moment(const world *w, int i, double *full)
 {
-    const double *m = (at_wall[i / MOR_CLUSTER] ? w->closed : w->moments) + 6 * i;
+    const bool is_at_wall = wall_places[i / MOR_CLUSTER] >= 0;
+    const double *m = is_at_wall ? w->closed + 6 * (i % MOR_CLUSTER) : w->moments + 6 * i;
     const double rows[9] = {m[0], m[3], m[5], m[3], m[1], m[4], m[5], m[4], m[2]}; /* xx, yy, zz, xy, yz, zx */
     memcpy(full, rows, sizeof rows);
 }
