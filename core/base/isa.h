@@ -88,7 +88,7 @@ static inline int mor_isa_has_halves(void)
 {
 #if defined(__x86_64__)
     __builtin_cpu_init();
-    return __builtin_cpu_is("amdfam19h") != 0;
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_is("amdfam19h");
 #else
     return 0;
 #endif

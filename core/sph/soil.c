@@ -175,7 +175,8 @@ static const uint64_t evolving_fields = STANDING | BIT(MASS) | BIT(CROSSINGS) | 
                                         SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
- * reallocated with the lists, and have lanes without particles; nor what is closed for clusters at walls only. */
+ * reallocated with the lists, and have lanes without particles; nor what is kept of clusters at walls, which is, too.
+ * What is closed for all particles is that of one option of the gradient or of the skew stress. */
 static void visit_shared(void *owner, mor_shared_visit visit, void *job)
 {
     mor_soil *soil = owner;
@@ -264,9 +265,9 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
     MOR_TRY(context, mor_soil_allocate_places(context, soil));
-    MOR_TRY(context, mor_at_walls_init(context, &soil->at_walls, soil->tree.n_clusters));
-    soil->at_walls.has_continued = has_fit(soil);
-    soil->at_walls.has_closed = has_fit(soil) || mor_soil_has_last_spin(soil);
+    MOR_TRY(context, mor_wall_clusters_init(context, &soil->wall_clusters, soil->tree.n_clusters));
+    soil->wall_clusters.has_continued = has_fit(soil);
+    soil->wall_clusters.has_closed = has_fit(soil) || mor_soil_has_last_spin(soil);
     if (mor_composite_is(soil->material)) {
         MOR_TRY(context, MOR_NEW(context, &soil->of_soil, padded * MOR_PAIR_OF_SOIL_SIZE, "soils of the particles"));
         MOR_TRY(context, MOR_NEW(context, &soil->one_soil, soil->tree.n_clusters, "soils of the clusters"));
@@ -274,7 +275,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (soil->at_walls.has_closed) {
+    if (soil->wall_clusters.has_closed) {
         MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
     }
     if (has_correction(soil) || has_present_spin(soil)) {
@@ -377,7 +378,7 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->diffusion);
     MOR_FREE(context, &soil->field_records);
     MOR_FREE(context, &soil->moments);
-    mor_at_walls_clear(context, &soil->at_walls);
+    mor_wall_clusters_clear(context, &soil->wall_clusters);
     MOR_FREE(context, &soil->closed);
     MOR_FREE(context, &soil->extra);
     mor_pair_singles_clear(context, &soil->singles);
@@ -409,7 +410,7 @@ mor_status mor_soil_add_wall(mor_context *context, mor_soil *soil, const mor_wal
     MOR_TRY(context,
             mor_soil_contact_init(context, &soil->walls[soil->n_walls], request, &soil->period, soil->tree.n_clusters));
     mor_soil_contact_number(soil->walls, soil->n_walls, 0);
-    soil->at_walls.has_corners |= soil->walls[soil->n_walls].normals != NULL;
+    soil->wall_clusters.has_corners |= soil->walls[soil->n_walls].normals != NULL;
     soil->n_walls += 1;
     return MOR_OK;
 }
@@ -433,7 +434,7 @@ mor_status mor_soil_add_boundary(mor_context *context, mor_soil *soil, mor_bound
                                              soil->settings.dimension, soil->tree.n_clusters));
     mor_soil_contact_number(soil->boundaries, soil->n_boundaries, MOR_SOIL_WALLS_MAX);
     soil->n_boundaries += 1;
-    soil->at_walls.has_corners |= boundary->normals != NULL;
+    soil->wall_clusters.has_corners |= boundary->normals != NULL;
     mor_soil_forget_lists(soil);
     return soil->sleep.states != NULL ? mor_sleep_add_bodies(context, &soil->sleep, boundary->n_patches) : MOR_OK;
 }
@@ -488,7 +489,8 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     bytes += soil->of_soil != NULL ? padded * (MOR_PAIR_OF_SOIL_SIZE * sizeof(double) + 1.0 / MOR_CLUSTER) : 0.0;
     const int n_tensors = (soil->regularization != NULL) + (soil->moments != NULL) + (soil->closed != NULL);
     bytes += n_tensors * padded * 6.0 * sizeof(double);
-    bytes += mor_at_walls_bytes(&soil->at_walls, soil->tree.n_clusters);
+    bytes += soil->density_sums != NULL ? n * sizeof(double) : 0.0;
+    bytes += mor_wall_clusters_bytes(&soil->wall_clusters, soil->tree.n_clusters);
     bytes += soil->energy != NULL ? n * 5.0 * sizeof(double) : 0.0;
     bytes += soil->diffusion != NULL ? padded * 4.0 * sizeof(double) : 0.0;
     bytes += soil->settings.scheme.precision != 1

@@ -83,17 +83,17 @@ typedef struct mor_soil {
     double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1; or NULL */
     double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; NULL where that is needed
                              * beside boundaries alone */
-    mor_at_walls at_walls;  /* of the particles beside boundaries */
-    double *extra;          /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
-    mor_pair_singles singles; /* copies of what the pair loops read, with mixed precision; or zeroed */
-    double *field_records;    /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
-    double *diffusion;        /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
-    double *density_sums;        /* shape [n_particles]; densities by summation, kg/m3; or NULL */
-    mor_reduce_room room;        /* of reductions over particles */
-    mor_sleep sleep;             /* soil at rest that is left out of steps */
-    mor_hold hold;               /* soil that is not released */
-    bool is_settling;            /* the initial stress settles: all soil is released, whatever is to be held later */
-    mor_sleep_box *moving;       /* shape [n_moving_room]; scratch, boxes of what moves beside it; NULL without */
+    mor_wall_clusters wall_clusters; /* of the particles beside boundaries */
+    double *extra;                   /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
+    mor_pair_singles singles;        /* copies of what the pair loops read, with mixed precision; or zeroed */
+    double *field_records; /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
+    double *diffusion;     /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */
+    double *density_sums;  /* shape [n_particles]; densities by summation, kg/m3; or NULL */
+    mor_reduce_room room;  /* of reductions over particles */
+    mor_sleep sleep;       /* soil at rest that is left out of steps */
+    mor_hold hold;         /* soil that is not released */
+    bool is_settling;      /* the initial stress settles: all soil is released, whatever is to be held later */
+    mor_sleep_box *moving; /* shape [n_moving_room]; scratch, boxes of what moves beside it; NULL without */
     int n_moving_room;
     int32_t *order;          /* shape [n_particles]; scratch of the sort */
     mor_soil_energy *energy; /* the audit; NULL: none */
@@ -238,6 +238,14 @@ static inline double mor_soil_slept_share(const mor_soil *soil, uint64_t n_steps
 {
     const double n = (double)n_steps * (double)soil->set.n_particles;
     return n > 0.0 ? (double)soil->sleep.n_left_out / n : 0.0;
+}
+
+/** Returns the instruction set of the loops over pairs for people, in mixed precision with how wide registers are.
+ *  Returns: a static text. */
+static inline const char *mor_soil_registers(const mor_soil *soil)
+{
+    const mor_pair_table *table = mor_pair_select(NULL);
+    return soil->settings.scheme.precision == 1 ? table->registers : table->instruction_set;
 }
 
 /** Returns the bytes held for fine particles alone, lists included, walls not, per particle.

@@ -7,11 +7,12 @@
 
 #include <string.h>
 
-void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, const mor_at_walls *at)
+void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments,
+                           const mor_wall_clusters *at)
 {
     enum { BYTES = 6 * MOR_CLUSTER * sizeof *moments };
     MOR_PARALLEL_FOR (context, cluster, soil->tree.n_clusters, MOR_BLOCK) {
-        const int64_t first = mor_at_walls_first(at->places, cluster);
+        const int64_t first = mor_wall_clusters_first(at->places, cluster);
         if (first >= 0 && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_ASLEEP)) {
             memcpy(at->closed + 6 * first, moments + 6 * cluster * MOR_CLUSTER, BYTES);
             if (at->continued != NULL) {
@@ -39,7 +40,7 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
     mor_soil *soil = owner;
     (void)step;
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    const mor_at_walls *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->at_walls);
+    const mor_wall_clusters *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->wall_clusters);
     const mor_soil_fit_job job = {
         .n_particles = soil->set.n_particles,
         .dimension = soil->settings.dimension,

@@ -81,12 +81,12 @@ static mor_status run_in_precision(mor_context *context, mor_soil *soil, mor_pai
 static void use_normals(mor_context *context, mor_soil *soil)
 {
     const int64_t n = soil->set.n_particles;
-    const mor_at_walls *at = &soil->at_walls;
+    const mor_wall_clusters *at = &soil->wall_clusters;
     if (!at->has_corners) {
         return;
     }
     MOR_PARALLEL_FOR (context, cluster, soil->tree.n_clusters, MOR_BLOCK) {
-        const int64_t first = mor_at_walls_first(at->places, cluster);
+        const int64_t first = mor_wall_clusters_first(at->places, cluster);
         const bool is_found = first >= 0 && !mor_sleep_is(soil->sleep.states, cluster, MOR_SLEEP_HELD);
         for (int64_t i = first; is_found && i < first + MOR_CLUSTER; ++i) {
             at->corners[i].sees_any = false;

@@ -123,12 +123,12 @@ typedef void (*mor_soil_kernel_use)(void *job, int64_t i, const double *sums);
 
 /** What of the kernel sums over boundaries is added to a field of the soil. */
 typedef struct mor_soil_wall_sums {
-    int first_sum;       /* of MOR_KERNEL_SUM_... */
-    int n_sums;          /* from that one on, 1 */
-    const double *scale; /* shape [n_particles]; factor on the sums of each particle, any unit; NULL: 1 */
-    bool of_walls_only;  /* not of rocks */
-    bool of_awake_only;  /* not for soil that sleeps */
-    const int32_t *places; /* of clusters in the field, see mor_at_walls; NULL: those of the particles */
+    int first_sum;         /* of MOR_KERNEL_SUM_... */
+    int n_sums;            /* from that one on, 1 */
+    const double *scale;   /* shape [n_particles]; factor on the sums of each particle, any unit; NULL: 1 */
+    bool of_walls_only;    /* not of rocks */
+    bool of_awake_only;    /* not for soil that sleeps */
+    const int32_t *places; /* of clusters in the field, see mor_wall_clusters; NULL: those of the particles */
 } mor_soil_wall_sums;
 
 /** Adds sums over walls and rocks to a field: out[i, a] += scale[i] * sum a of particle i.
@@ -161,7 +161,8 @@ static inline double mor_soil_moment_cofactors(const double *moment, int dimensi
  *  read where they are.
  *  @param moments [in]   shape [n_particles padded to 8, 6], unit 1
  *  @param at      [out]  closed becomes the copy, continued zero, where it is wanted */
-void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments, const mor_at_walls *at);
+void mor_soil_copy_moments(mor_context *context, const mor_soil *soil, const double *moments,
+                           const mor_wall_clusters *at);
 
 /** Whether forces conserve angular momentum by a skew stress that was found in the last step. */
 bool mor_soil_has_last_spin(const void *owner);
@@ -205,9 +206,10 @@ double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
     FIELD(VELOCITY)                                                                                                    \
     FIELD(DENSITY)                                                                                                     \
     FIELD(DENSITY_RATE)                                                                                                \
-    FIELD(STRESS) FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT)           \
-        FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET)                \
-            FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
+    FIELD(STRESS)                                                                                                      \
+    FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS)      \
+        FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE)                \
+            FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
 
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)

@@ -95,7 +95,7 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
 static const double *close_moments(mor_context *context, mor_soil *soil, mor_view *view)
 {
     const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
-    const mor_at_walls *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->at_walls);
+    const mor_wall_clusters *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->wall_clusters);
     mor_soil_copy_moments(context, soil, moments, at);
     add_walls(context, soil, view, at->places, at->closed);
     return at->closed;
@@ -125,7 +125,8 @@ mor_status mor_soil_remember(mor_context *context, void *owner, mor_view *view, 
                                .stress = mor_view_read(view, MOR_FIELD_STRESS),
                                .of_soil = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->of_soil),
                                .kinds = kinds,
-                               .wall_places = mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->at_walls.places),
+                               .wall_places =
+                                   mor_view_read_shared(view, MOR_RESOURCE_LISTS, soil->wall_clusters.places),
                                .mean = mor_view_write(view, MOR_FIELD_MEAN_STRESS),
                                .flow = mor_view_write(view, MOR_FIELD_FLOW),
                                .hourglass_rate = mor_view_read(view, MOR_FIELD_HOURGLASS_RATE),

@@ -84,15 +84,15 @@ static mor_status build_boundary_lists(mor_context *context, mor_soil *soil, mor
     mor_tree_resize(&soil->boundary_tree, points->tree->n_points);
     mor_tree_fit(&soil->boundary_tree, points->records, points->stride);
     points->tree = &soil->boundary_tree;
-    mor_at_walls_begin(&soil->at_walls, soil->tree.n_clusters);
+    mor_wall_clusters_begin(&soil->wall_clusters, soil->tree.n_clusters);
     for (int k = 0; k < mor_soil_contact_count(soil); ++k) {
         mor_soil_contact *contact = mor_soil_contact_at(soil, k);
         MOR_TRY(context, mor_soil_contact_check_frictions(context, contact, n_regions));
         MOR_TRY(context, mor_soil_contact_build(context, contact, points, reach));
         contact->relation.generation = soil->set.generation;
-        mor_at_walls_count(&soil->at_walls, contact);
+        mor_wall_clusters_count(&soil->wall_clusters, contact);
     }
-    MOR_TRY(context, mor_at_walls_end(context, &soil->at_walls, soil->tree.n_clusters));
+    MOR_TRY(context, mor_wall_clusters_end(context, &soil->wall_clusters, soil->tree.n_clusters));
     mor_skin_places_keep(context, &soil->boundary_places, position);
     soil->has_boundary_lists = true;
     return MOR_OK;

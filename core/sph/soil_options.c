@@ -53,7 +53,7 @@ void mor_soil_add_wall_sums(mor_context *context, mor_soil *soil, mor_view *view
             const bool is_left = what->of_awake_only && mor_sleep_is(contact->sleep, cluster, MOR_SLEEP_ASLEEP);
             for (int64_t slot = contact->first_slot[place]; !is_left && slot < contact->first_slot[place + 1]; ++slot) {
                 const int64_t first = (int64_t)cluster * MOR_CLUSTER;
-                double *to = out + mor_at_walls_first(what->places, cluster) * n_sums;
+                double *to = out + mor_wall_clusters_first(what->places, cluster) * n_sums;
                 for (int64_t lane = 0; lane < MOR_CLUSTER && first + lane < n_particles; ++lane) {
                     const double *sums =
                         contact->sums + (slot * MOR_CLUSTER + lane) * MOR_KERNEL_SUMS + what->first_sum;

@@ -28,7 +28,7 @@ typedef struct soil_row {
 #define UNEVEN "lattice.jitter=0.2"
 #define MIXED "numerics.precision=mixed"
 #define MOVING "soil[0].velocity=('0.4 m/s', '0 m/s', '0 m/s')"
-#define LONG "end=10 s" /* repetitions of soft soil take longer than the run of its case */
+#define LONG "end=10 s" /* repetitions may go on beyond the end of the case */
 
 static const soil_row rows[] = {
     {"soil-2d-16k", CASES "column-2d/case.cfg", {"spacing=1.118 mm", SOFT, UNEVEN, LONG, NULL}, 1000, 0, 7, true},

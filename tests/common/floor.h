@@ -152,11 +152,16 @@ static inline void floor_run(floor_case *f, mor_dissipation dissipation)
     assert_int_equal(mor_soil_contact_build(context, &f->wall, &points, reach), MOR_OK);
     mor_soil_contact_sum(context, &f->wall, table, constants, f->soil.records);
     if (f->wall.normals != NULL) {
-        mor_contact_corner corners[ASSEMBLY_MAX] = {{.sees_any = false}};
-        const mor_at_walls at = {.corners = corners};
-        mor_soil_contact_project(context, &f->wall, f->soil.n, !f->presses_only, &at);
-        mor_soil_contact_solve_corners(context, f->soil.n, NULL, &at);
-        mor_soil_contact_close_corners(context, &f->wall, f->soil.n, &at);
+        mor_wall_clusters at = {.has_corners = true};
+        assert_int_equal(mor_wall_clusters_init(context, &at, f->soil.tree.n_clusters), MOR_OK);
+        mor_wall_clusters_begin(&at, f->soil.tree.n_clusters);
+        mor_wall_clusters_count(&at, &f->wall);
+        assert_int_equal(mor_wall_clusters_end(context, &at, f->soil.tree.n_clusters), MOR_OK);
+        const mor_wall_clusters seen = {.places = at.places, .corners = at.corners}; /* all are solved at the end */
+        mor_soil_contact_project(context, &f->wall, f->soil.n, !f->presses_only, &seen);
+        mor_soil_contact_solve_corners(context, f->soil.n, NULL, &seen);
+        mor_soil_contact_close_corners(context, &f->wall, f->soil.n, &seen);
+        mor_wall_clusters_clear(context, &at);
         mor_soil_contact_hold(context, &f->wall, constants->smoothing_length, f->soil.n);
     }
     mor_soil_contact_sum_divergence(context, &f->wall, table, constants, f->soil.records, &f->soil.relation, NULL);

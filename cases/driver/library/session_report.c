@@ -319,7 +319,7 @@ static void print_memory(const mor_context *context, FILE *out, const mor_simula
     fprintf(out, "  memory                  %.1f MiB", (double)context->memory_peak_bytes / 1048576.0);
     if (s->has_soil) {
         const double growth = find_wall_growth(&s->soil);
-        fprintf(out, ", %.0f bytes per soil particle", mor_soil_bytes_per_particle(&s->soil));
+        fprintf(out, ", %.0f bytes per soil particle now", mor_soil_bytes_per_particle(&s->soil));
         if (growth > 0.0) {
             fprintf(out, "; walls take up to %.1f MiB more as soil comes near them", growth / 1048576.0);
         }
@@ -338,7 +338,7 @@ static mor_status print_speed(mor_context *context, FILE *out, mor_simulation *s
     }
     fprintf(out, "  speed now               %.2f M %s/s with %d thread%s (%s)\n",
             1e-6 * (double)mor_simulation_counted_particles(s) / now->seconds, mor_simulation_counted_unit(s),
-            context->n_threads, context->n_threads == 1 ? "" : "s", mor_pair_select(NULL)->registers);
+            context->n_threads, context->n_threads == 1 ? "" : "s", mor_soil_registers(&s->soil));
     print_expected_time(out, s, now, touching, is_same);
     return MOR_OK;
 }

@@ -8,7 +8,7 @@
 #include "core/particle/images.h"
 #include "core/particle/relation_check.h"
 #include "core/particle/skin.h"
-#include "core/sph/boundary/at_walls.h"
+#include "core/sph/boundary/wall_clusters.h"
 #include "core/sph/pair/pair.h"
 #include "core/sph/pair/pair_single.h"
 #include "core/sph/sleep/sleep.h"
@@ -300,16 +300,16 @@ void mor_soil_contact_sum(mor_context *context, mor_soil_contact *contact, const
  *  @param n_particles [in]      number of soil particles
  *  @param coulomb_pulls [in]    boundaries with Coulomb friction hold soil under tension
  *  @param at          [in,out]  corners are added to, sees_any false at first; where one patch is listed they are
- *                              solved at once; patches may be NULL: not known */
+ *                              solved at once */
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
-                              const mor_at_walls *at);
+                              const mor_wall_clusters *at);
 
 /** Finds how the rest is to be divided among the faces that meet; after all boundaries are projected.
  *  @param n_particles [in]  number of soil particles
  *  @param sleep       [in]  shape [clusters]; where soil is held it is left as it is; NULL: all is awake
  *  @param at      [in,out]  its corners are solved */
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *sleep,
-                                    const mor_at_walls *at);
+                                    const mor_wall_clusters *at);
 
 /** Gives the faces that meet their part of the rest, each along its normal, so that kernel gradients over soil and all
  *  boundaries together still cancel. What each has brought to the rest itself is kept for the forces on it.
@@ -317,7 +317,7 @@ void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, c
  *  @param n_particles [in]      number of soil particles
  *  @param at          [in]      its corners are solved */
 void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
-                                    const mor_at_walls *at);
+                                    const mor_wall_clusters *at);
 
 /** Deepest that a face holds soil, smoothing lengths: what presses it deeper meets less and less resistance. */
 #define MOR_SOIL_CONTACT_DEEPEST 1.2
@@ -464,7 +464,7 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
  *  @param n_particles [in]      number of soil particles
  *  @param at          [in,out]  to closed what is mirrored is added, to continued what continues */
 void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *contact, int64_t n_particles,
-                                  const mor_at_walls *at);
+                                  const mor_wall_clusters *at);
 
 /** Switches the barrier of a contact on or off.
  *  @param contact [in,out]  before the first step

@@ -549,9 +549,10 @@ void mor_soil_contact_sum_gradient(mor_context *context, mor_soil_contact *conta
     }
 }
 
-static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int64_t n_particles, const mor_at_walls *at)
+static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int64_t n_particles,
+                             const mor_wall_clusters *at)
 {
-    const int64_t first = mor_at_walls_first(at->places, contact->slots[slot].cluster);
+    const int64_t first = mor_wall_clusters_first(at->places, contact->slots[slot].cluster);
     for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
         const int64_t lane = slot * MOR_CLUSTER + k;
         const double *sums = contact->sums + lane * MOR_KERNEL_SUMS;
@@ -574,7 +575,7 @@ static void add_slot_moments(const mor_soil_contact *contact, int64_t slot, int6
 }
 
 void mor_soil_contact_add_moments(mor_context *context, const mor_soil_contact *contact, int64_t n_particles,
-                                  const mor_at_walls *at)
+                                  const mor_wall_clusters *at)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         const bool sleeps = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_ASLEEP);

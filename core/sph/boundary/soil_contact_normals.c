@@ -157,7 +157,7 @@ static bool may_have_coulomb_friction(const mor_boundary_patch *patch)
 }
 
 void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, int64_t n_particles, bool coulomb_pulls,
-                              const mor_at_walls *at)
+                              const mor_wall_clusters *at)
 {
     const mor_soil_lanes *lanes = mor_soil_lanes_select(NULL);
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
@@ -165,8 +165,9 @@ void mor_soil_contact_project(mor_context *context, mor_soil_contact *contact, i
         for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
             mor_face_normals found;
             lanes->find_normals(contact->seen_faces + MOR_FACE_SUMS * MOR_CLUSTER * slot, MOR_FACE_SUMS, &found);
-            mor_contact_corner *corners = at->corners + mor_at_walls_first(at->places, contact->slots[slot].cluster);
-            const bool is_alone = at->patches != NULL && at->patches[contact->slots[slot].cluster] == 1;
+            mor_contact_corner *corners =
+                at->corners + mor_wall_clusters_first(at->places, contact->slots[slot].cluster);
+            const bool is_alone = at->n_patches != NULL && at->n_patches[contact->slots[slot].cluster] == 1;
             const bool limits = mor_soil_contact_limits_all(contact, coulomb_pulls) &&
                                 may_have_coulomb_friction(&contact->boundary->patches[contact->slots[slot].patch]);
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
@@ -206,12 +207,12 @@ static void solve_cluster(const mor_soil_lanes *lanes, mor_contact_corner *corne
 }
 
 void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, const int8_t *sleep,
-                                    const mor_at_walls *at)
+                                    const mor_wall_clusters *at)
 {
     const mor_soil_lanes *lanes = mor_soil_lanes_select(NULL);
     MOR_PARALLEL_FOR (context, cluster, (n_particles + MOR_CLUSTER - 1) / MOR_CLUSTER, MOR_BLOCK / MOR_CLUSTER) {
         const bool is_held = mor_sleep_is(sleep, cluster, MOR_SLEEP_HELD);
-        const int64_t first = mor_at_walls_first(at->places, cluster);
+        const int64_t first = mor_wall_clusters_first(at->places, cluster);
         const int64_t left = n_particles - cluster * MOR_CLUSTER;
         if (!is_held && first >= 0) {
             solve_cluster(lanes, at->corners + first, left < MOR_CLUSTER ? left : MOR_CLUSTER);
@@ -220,12 +221,13 @@ void mor_soil_contact_solve_corners(mor_context *context, int64_t n_particles, c
 }
 
 void mor_soil_contact_close_corners(mor_context *context, mor_soil_contact *contact, int64_t n_particles,
-                                    const mor_at_walls *at)
+                                    const mor_wall_clusters *at)
 {
     MOR_PARALLEL_FOR (context, place, contact->relation.n_occupied, GRAIN) {
         const bool is_held = mor_sleep_is(contact->sleep, contact->relation.occupied[place], MOR_SLEEP_HELD);
         for (int64_t slot = contact->first_slot[place]; !is_held && slot < contact->first_slot[place + 1]; ++slot) {
-            const mor_contact_corner *own = at->corners + mor_at_walls_first(at->places, contact->slots[slot].cluster);
+            const mor_contact_corner *own =
+                at->corners + mor_wall_clusters_first(at->places, contact->slots[slot].cluster);
             for (int64_t k = 0; k < mor_soil_contact_lanes(&contact->slots[slot], n_particles); ++k) {
                 const int64_t lane = slot * MOR_CLUSTER + k;
                 double *gradient = contact->sums + lane * MOR_KERNEL_SUMS + MOR_KERNEL_SUM_GRADIENT;

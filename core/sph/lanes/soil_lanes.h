@@ -12,19 +12,18 @@
 /** The fit of the velocity gradient. All arrays are borrowed. */
 typedef struct mor_soil_fit_job {
     int64_t n_particles;
-    int dimension;           /* 2 or 3 */
-    double volume_factor;    /* kernel's own moment over that of the gradients, 1 */
-    const int32_t *wall_places; /* shape [clusters]; of their particles in the arrays that are read at walls; -1: none
-                                 * is listed */
-    const double *moments;   /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1 */
-    const double *closed;    /* shape [places * 8, 6]; with what boundaries close of them, 1; at walls */
-    const double *continued; /* shape [places * 8, 6]; what boundaries continue of them, 1; likewise */
-    const double *density;   /* shape [n_particles], kg/m3 */
-    const double *flow;      /* shape [n_particles]; 0: at rest, 1: flows, where the rate of shear is the sum's; 1;
+    int dimension;              /* 2 or 3 */
+    double volume_factor;       /* kernel's own moment over that of the gradients, 1 */
+    const int32_t *wall_places; /* shape [clusters]; place of each in closed and continued; -1: it lists no boundary */
+    const double *moments;      /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1 */
+    const double *closed;       /* shape [places * 8, 6]; with what boundaries close of them, 1; at walls */
+    const double *continued;    /* shape [places * 8, 6]; what boundaries continue of them, 1; likewise */
+    const double *density;      /* shape [n_particles], kg/m3 */
+    const double *flow;         /* shape [n_particles]; 0: at rest, 1: flows, where the rate of shear is the sum's; 1;
                               * NULL: nowhere */
-    double *gradient;        /* shape [n_particles, 9], 1/s; the sums, then the fit */
-    double *density_rate;    /* shape [n_particles], kg/m3/s */
-    double *strain_rate;     /* shape [n_particles, 6], 1/s; for the next step; NULL: not needed */
+    double *gradient;           /* shape [n_particles, 9], 1/s; the sums, then the fit */
+    double *density_rate;       /* shape [n_particles], kg/m3/s */
+    double *strain_rate;        /* shape [n_particles, 6], 1/s; for the next step; NULL: not needed */
 } mor_soil_fit_job;
 
 /** What the memory of a particle takes of its soil in a step. */

@@ -13,7 +13,8 @@ const mor_pair_table *mor_pair_select(const char *name)
     static const mor_pair_table *(*const tables[MOR_ISA_COUNT])(int has_halves) = MOR_ISA_VARIANTS(mor_pair_table);
     const bool asks_for_halves = name != NULL && strcmp(name, "avx512-halves") == 0;
     const int isa = mor_isa_select(asks_for_halves ? "avx512" : name);
-    return isa < 0 ? NULL : tables[isa](asks_for_halves || (name == NULL && mor_isa_has_halves()));
+    const bool has_halves = asks_for_halves || (name == NULL && isa == MOR_ISA_AVX512 && mor_isa_has_halves());
+    return isa < 0 ? NULL : tables[isa](has_halves);
 }
 
 static int find_soil_of_list(const int32_t *list, int32_t count, const double *of_soil)

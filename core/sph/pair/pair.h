@@ -272,8 +272,8 @@ typedef void (*mor_pair_share_loop)(const mor_pair_constants *constants, const m
 /** The routines of one instruction set. Static, shared. */
 typedef struct mor_pair_table {
     const char *instruction_set;     /* "avx512", "avx2", "baseline" */
-    const char *registers;           /* the same for people, with how wide those of single precision are */
-    int single_bits;                 /* of a register of the mixed loops: 512, 256, 128 */
+    const char *registers;           /* the same for people, as runs in mixed precision have it */
+    int single_bits;                 /* of a register of the mixed loops of momentum and gradient: 512, 256, 128 */
     mor_pair_loop momentum[2];       /* by dimension - 2: acceleration and stress diffusion, eqs. 25, 27 */
     mor_pair_loop gradient[2];       /* by dimension - 2: velocity gradient and density rate, eqs. 15, 24 */
     mor_pair_loop mixed_momentum[2]; /* the same in mixed precision: pairs in single, sums and the rest in double */
@@ -288,8 +288,8 @@ typedef struct mor_pair_table {
 } mor_pair_table;
 
 /** Returns the routines for the best instruction set this processor has, or those asked for.
- *  @param name [in]  zero-terminated: "avx512", "avx512-halves" (its mixed loops in registers of 256 bits), "avx2",
- *                    "baseline"; nullable: the best
+ *  @param name [in]  zero-terminated: "avx512", "avx512-halves" (momentum and gradient in mixed precision in registers
+ *                    of 256 bits), "avx2", "baseline"; nullable: the best
  *  Returns: a static table; NULL when the set asked for is unknown or not on this processor. */
 const mor_pair_table *mor_pair_select(const char *name);
 

@@ -80,25 +80,15 @@ static void regularize_range(const mor_pair_constants *c, const mor_pair_arrays 
     }
 }
 
-/* The loops in single precision: in whole registers of 512 bits, or in those of 256. */
+/* The table with the momentum and gradient loops in single precision of one kind. */
 #define WHOLE(name) MOR_ISA_NAME(mor_pair_mixed_##name)
-#define WHOLE_TEXT MOR_ISA_TEXT(MOR_ISA)
-#if defined(__AVX512F__)
 #define HALVES(name) MOR_ISA_NAME(mor_pair_halves_##name)
-enum { WHOLE_BITS = 512, HALVES_BITS = 256 };
-#define HALVES_TEXT MOR_ISA_TEXT(MOR_ISA) ", single precision in 256 bits"
-#else
-#define HALVES_TEXT WHOLE_TEXT
-#define HALVES(name) WHOLE(name)
-enum { WHOLE_BITS = LANES == 2 ? 128 : 256, HALVES_BITS = WHOLE_BITS };
-#endif
-
-#define TABLE(kind)                                                                                                    \
+#define TABLE(single, bits, registers)                                                                                 \
     {                                                                                                                  \
-        MOR_ISA_TEXT(MOR_ISA), kind##_TEXT, kind##_BITS,                                                               \
+        MOR_ISA_TEXT(MOR_ISA), registers, bits,                                                                        \
             {MOR_ISA_NAME(mor_pair_momentum_2d), MOR_ISA_NAME(mor_pair_momentum_3d)},                                  \
             {MOR_ISA_NAME(mor_pair_gradient_2d), MOR_ISA_NAME(mor_pair_gradient_3d)},                                  \
-            {kind(momentum_2d), kind(momentum_3d)}, {kind(gradient_2d), kind(gradient_3d)}, regularize_range,          \
+            {single(momentum_2d), single(momentum_3d)}, {single(gradient_2d), single(gradient_3d)}, regularize_range,  \
             MOR_ISA_NAME(mor_pair_kernel), MOR_ISA_NAME(mor_pair_tangent), MOR_ISA_NAME(mor_pair_mean),                \
             MOR_ISA_NAME(mor_pair_faces), MOR_ISA_NAME(mor_pair_share), diffuse_range                                  \
     }
@@ -107,6 +97,13 @@ const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(int has_halves);
 
 const mor_pair_table *MOR_ISA_NAME(mor_pair_table)(int has_halves)
 {
-    static const mor_pair_table tables[2] = {TABLE(WHOLE), TABLE(HALVES)};
+#if defined(__AVX512F__)
+    static const mor_pair_table tables[2] = {TABLE(WHOLE, 512, "avx512"),
+                                             TABLE(HALVES, 256, "avx512, pairs of soil in 256 bits")};
     return &tables[has_halves != 0];
+#else
+    static const mor_pair_table table = TABLE(WHOLE, LANES == 2 ? 128 : 256, MOR_ISA_TEXT(MOR_ISA));
+    (void)has_halves;
+    return &table;
+#endif
 }

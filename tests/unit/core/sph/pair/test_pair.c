@@ -557,9 +557,19 @@ static void unknown_instruction_set_gives_no_table(void **state)
     assert_null(mor_pair_select(""));
     const mor_pair_table *tables[ASSEMBLY_TABLES];
     const int n_tables = assembly_tables(tables);
+    const mor_pair_table *halves = mor_pair_select("avx512-halves");
+    const bool has_halves = halves != NULL && mor_isa_has_halves();
     /* The widest there is, but for a processor that works on it in halves. */
-    const bool has_halves = tables[n_tables - 1]->single_bits == 512 && mor_isa_has_halves();
-    assert_ptr_equal(mor_pair_select(NULL), tables[n_tables - 1 - has_halves]);
+    assert_ptr_equal(mor_pair_select(NULL), has_halves ? halves : tables[n_tables - 1]);
+    assert_int_equal(halves == NULL, mor_pair_select("avx512") == NULL);
+    for (int k = 0; k < 2 && halves != NULL; ++k) {
+        const mor_pair_table *whole = mor_pair_select("avx512");
+        assert_int_equal(halves->single_bits, 256);
+        assert_int_equal(whole->single_bits, 512);
+        assert_ptr_equal(halves->momentum[k], whole->momentum[k]);
+        assert_ptr_not_equal(halves->mixed_momentum[k], whole->mixed_momentum[k]);
+        assert_ptr_not_equal(halves->mixed_gradient[k], whole->mixed_gradient[k]);
+    }
 }
 
 int main(void)
