@@ -249,21 +249,22 @@ mor_status mor_images_make_room(mor_context *context, const mor_images *images, 
     return MOR_OK;
 }
 
-/* A list holds points, then images, each by rising owner: merges both.
- *  list: shape [count], written; copy: shape [count], the same before */
-static void merge_list(const mor_images *images, const int32_t *copy, int32_t count, int32_t *list)
+/* A list holds points, then images, each by rising owner: puts each image after the points up to its owner.
+ *  list: shape [count] */
+static void merge_list(const mor_images *images, int32_t *list, int32_t count)
 {
-    int32_t next_image = count;
-    while (next_image > 0 && copy[next_image - 1] >= images->first) {
-        --next_image;
+    int32_t first_image = count;
+    while (first_image > 0 && list[first_image - 1] >= images->first) {
+        --first_image;
     }
-    const int32_t n_points = next_image;
-    int32_t next_point = 0;
-    for (int32_t k = 0; k < count; ++k) {
-        const bool takes_point =
-            next_point < n_points &&
-            (next_image == count || copy[next_point] <= mor_images_owner(images, copy[next_image]));
-        list[k] = takes_point ? copy[next_point++] : copy[next_image++];
+    int32_t place = 0;
+    for (int32_t k = first_image; k < count; ++k, ++place) {
+        const int32_t image = list[k];
+        while (place < k && list[place] <= mor_images_owner(images, image)) {
+            ++place;
+        }
+        memmove(list + place + 1, list + place, (size_t)(k - place) * sizeof *list);
+        list[place] = image;
     }
 }
 
@@ -273,10 +274,7 @@ void mor_images_sort(mor_context *context, const mor_images *images, mor_relatio
         const int32_t count = relation->counts[cluster];
         int32_t *list = relation->lists[cluster];
         if (count > 0 && list[count - 1] >= images->first) {
-            /* The short list is a copy of the list at first. */
-            int32_t *copy = mor_relation_near(relation, cluster);
-            merge_list(images, copy, count, list);
-            memcpy(copy, list, (size_t)count * sizeof *copy);
+            merge_list(images, list, count);
         }
     }
 }

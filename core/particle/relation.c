@@ -25,9 +25,6 @@ mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_c
         status = MOR_NEW(context, &relation->counts, n_clusters, "neighbor list lengths");
     }
     if (status == MOR_OK) {
-        status = MOR_NEW(context, &relation->near_counts, n_clusters, "short neighbor list lengths");
-    }
-    if (status == MOR_OK) {
         status = MOR_NEW(context, &relation->occupied, n_clusters, "clusters with neighbors");
     }
     if (status == MOR_OK) {
@@ -50,7 +47,6 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
     MOR_FREE(context, &relation->buffers);
     MOR_FREE(context, &relation->capacities);
     MOR_FREE(context, &relation->occupied);
-    MOR_FREE(context, &relation->near_counts);
     MOR_FREE(context, &relation->counts);
     MOR_FREE(context, &relation->lists);
     memset(relation, 0, sizeof *relation);
@@ -59,11 +55,7 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
 void mor_relation_restore_near(const mor_relation *relation, int64_t first, int64_t last)
 {
     for (int64_t cluster = first; cluster < last; ++cluster) {
-        const int32_t count = relation->counts[cluster];
-        if (relation->near_counts[cluster] != count) {
-            memcpy(mor_relation_near(relation, cluster), relation->lists[cluster], (size_t)count * sizeof(int32_t));
-            relation->near_counts[cluster] = count;
-        }
+        mor_relation_set_near(mor_relation_near(relation, cluster), relation->counts[cluster]);
     }
 }
 
@@ -133,7 +125,6 @@ mor_status mor_relation_build(mor_context *context, mor_relation *relation, cons
     relation->n_builds += 1;
     if (target->tree->n_clusters == 0) {
         memset(relation->counts, 0, (size_t)relation->n_clusters * sizeof *relation->counts);
-        memset(relation->near_counts, 0, (size_t)relation->n_clusters * sizeof *relation->near_counts);
     } else if (relation->n_clusters > 0) {
         bool has_grown = true;
         while (has_grown) {

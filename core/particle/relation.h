@@ -22,32 +22,49 @@ typedef enum mor_configuration {
 /** One edge of the graph source set -> target set. Owner: the stepper that uses it. */
 typedef struct mor_relation {
     mor_configuration configuration;
-    double reach;         /* targets nearer than this to one of the eight are listed, m */
-    int64_t n_clusters;   /* source clusters */
-    int32_t **lists;      /* shape [n_clusters]; start of each cluster's list in one of the buffers */
-    int32_t *counts;      /* shape [n_clusters]; entries in each list */
-    int32_t *near_counts; /* shape [n_clusters]; entries in each short list, see mor_relation_near */
-    int n_buffers;        /* one per thread */
-    int32_t **buffers;    /* shape [n_buffers] of [capacities]; each list with its short list */
-    int64_t *capacities;  /* shape [n_buffers]; entries */
-    int64_t n_entries;    /* entries in all lists, without the short ones */
-    int64_t n_occupied;   /* clusters with a list that is not empty */
-    int32_t *occupied;    /* shape [n_clusters]; those clusters, ascending */
-    uint64_t n_builds;    /* how often it was built */
-    uint64_t generation;  /* of the source set when it was built; whoever builds it sets this */
+    double reach;        /* targets nearer than this to one of the eight are listed, m */
+    int64_t n_clusters;  /* source clusters */
+    int32_t **lists;     /* shape [n_clusters]; start of each cluster's list in one of the buffers */
+    int32_t *counts;     /* shape [n_clusters]; entries in each list */
+    int n_buffers;       /* one per thread */
+    int32_t **buffers;   /* shape [n_buffers] of [capacities]; each list with its bits, see mor_relation_near */
+    int64_t *capacities; /* shape [n_buffers]; entries */
+    int64_t n_entries;   /* entries in all lists */
+    int64_t n_occupied;  /* clusters with a list that is not empty */
+    int32_t *occupied;   /* shape [n_clusters]; those clusters, ascending */
+    uint64_t n_builds;   /* how often it was built */
+    uint64_t generation; /* of the source set when it was built; whoever builds it sets this */
 } mor_relation;
 
-/** Returns the short list of a cluster, shape [near_counts[cluster]], with room for all of its list, which it follows.
- *  The build copies the list. Who finds entries out of reach of all eight may leave them out, and set the count, for
- *  those who come later and see the particles at the same places.
- *  @param relation [in]  built
- *  @param cluster  [in]  0 .. n_clusters - 1 */
-static inline int32_t *mor_relation_near(const mor_relation *relation, int64_t cluster)
+/* Bits in one word. */
+enum { MOR_RELATION_WORD = 32 };
+
+/** Returns the words that hold one bit for each entry of a list. */
+static inline int32_t mor_relation_words(int32_t count)
 {
-    return relation->lists[cluster] + relation->counts[cluster];
+    return (count + MOR_RELATION_WORD - 1) / MOR_RELATION_WORD;
 }
 
-/** Has all of a list in the short lists of clusters that no loop shortens in this step, for those who read them.
+/** Returns the bits of a list, shape [mor_relation_words(count)], which follow it: entry k has bit k % 32 of word
+ *  k / 32, and what is beyond the list is not set. The build sets them. Who finds entries out of reach of all eight may
+ *  clear theirs, for those who come later and see the particles at the same places; relation_near.h reads the others.
+ *  @param relation [in]  built
+ *  @param cluster  [in]  0 .. n_clusters - 1 */
+static inline uint32_t *mor_relation_near(const mor_relation *relation, int64_t cluster)
+{
+    return (uint32_t *)(relation->lists[cluster] + relation->counts[cluster]);
+}
+
+/** Sets the bits of a list, shape [mor_relation_words(count)]. */
+static inline void mor_relation_set_near(uint32_t *words, int32_t count)
+{
+    for (int32_t k = 0; k < mor_relation_words(count); ++k) {
+        const int32_t left = count - k * MOR_RELATION_WORD;
+        words[k] = left < MOR_RELATION_WORD ? (UINT32_C(1) << left) - 1 : UINT32_MAX;
+    }
+}
+
+/** Sets the bits of clusters for which no loop finds them in this step, for those who read them.
  *  @param relation [in]  built
  *  @param first    [in]  first cluster
  *  @param last     [in]  one past the last cluster */

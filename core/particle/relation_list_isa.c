@@ -235,11 +235,11 @@ int64_t MOR_ISA_NAME(mor_relation_list)(mor_relation *relation, const mor_relati
         } while (it.depth > 0);
         relation->lists[cluster] = out;
         relation->counts[cluster] = (int32_t)count;
-        relation->near_counts[cluster] = (int32_t)count;
-        if (count > 0 && 2 * count <= room) {
-            memcpy(out + count, out, (size_t)count * sizeof *out);
+        const int64_t needed = count + mor_relation_words((int32_t)count);
+        if (count > 0 && needed <= room) {
+            mor_relation_set_near(mor_relation_near(relation, cluster), (int32_t)count);
         }
-        total += 2 * count;
+        total += needed;
     }
     return total;
 }

@@ -499,7 +499,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
                                                    soil->settings.scheme.reconstruction == 1, soil->of_soil != NULL);
     bytes += soil->sleep.states != NULL ? mor_sleep_bytes(&soil->sleep) : 0.0;
     bytes += soil->extra != NULL ? padded * (double)MOR_EXTRA_SIZE * sizeof(double) : 0.0;
-    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 3 * sizeof(int32_t));
+    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 2 * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {
         bytes += (double)soil->inner.capacities[buffer] * sizeof(int32_t);
     }

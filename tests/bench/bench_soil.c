@@ -176,7 +176,9 @@ static target_counts count_targets(const mor_soil *soil, int64_t n_clusters)
     target_counts counts = {0.0, 0.0};
     for (int64_t cluster = 0; cluster < n_clusters; ++cluster) {
         counts.listed += soil->inner.counts[cluster];
-        counts.near += soil->inner.near_counts[cluster];
+        for (int32_t k = 0; k < mor_relation_words(soil->inner.counts[cluster]); ++k) {
+            counts.near += __builtin_popcount(mor_relation_near(&soil->inner, cluster)[k]);
+        }
     }
     return counts;
 }

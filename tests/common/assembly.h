@@ -14,7 +14,7 @@
 /** @file
  *  A few dozen soil particles in random states, everything the pair loops read of them, and everything they write. */
 
-enum { ASSEMBLY_MAX = 128, ASSEMBLY_SIDE_MAX = 16, ASSEMBLY_RECORDS = ASSEMBLY_MAX * MOR_RECORD_SIZE };
+enum { ASSEMBLY_MAX = 640, ASSEMBLY_SIDE_MAX = 16, ASSEMBLY_RECORDS = ASSEMBLY_MAX * MOR_RECORD_SIZE };
 
 /** Ways to damp and to diffuse: modes of dissipation, with and without reconstruction and limited diffusion. */
 enum { ASSEMBLY_FORMS = 3 * 2 * 2 };
@@ -238,6 +238,23 @@ static inline void assembly_open_lattice(assembly *a, int dimension, int side, i
 static inline void assembly_open_mixed(assembly *a, int dimension)
 {
     assembly_open_lattice(a, dimension, dimension == 2 ? 11 : 5, 3, 0.3);
+}
+
+/** So many particles in a dense cube that a hundred all see one another, and a cluster in the middle sees six hundred;
+ *  twenty strangers come before them in all lists. Just above h / 4 apart, as mixed precision asks for. */
+static inline void assembly_open_dense(assembly *a, int n_near)
+{
+    enum { STRANGERS = 20 };
+    static const double spacing = 0.33 * ASSEMBLY_SPACING;
+    double points[3 * ASSEMBLY_MAX] = {0.0};
+    const int side = n_near > 125 ? 9 : 5;
+    for (int i = 0; i < n_near + STRANGERS; ++i) {
+        points[3 * i] = spacing * (i % side) - (i < n_near ? 0.0 : 20.0 * ASSEMBLY_SPACING);
+        points[3 * i + 1] = spacing * (i / side % side);
+        points[3 * i + 2] = spacing * (i / side / side);
+    }
+    assembly_open(a, 3, points, n_near + STRANGERS);
+    assembly_list(a, 1000.0 * ASSEMBLY_SPACING);
 }
 
 static inline void assembly_close(assembly *a)

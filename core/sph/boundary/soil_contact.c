@@ -211,6 +211,7 @@ static void free_slots(mor_context *context, mor_soil_contact *contact)
 void mor_soil_contact_clear(mor_context *context, mor_soil_contact *contact)
 {
     free_slots(context, contact);
+    MOR_FREE(context, &contact->near);
     mor_wall_blocks_clear(context, contact);
     if (contact->is_wall && contact->boundary != NULL) {
         MOR_FREE(context, &contact->boundary->records);
@@ -363,10 +364,24 @@ static int find_patch(const mor_boundary *boundary, int64_t point)
     return first;
 }
 
+/* Makes room for a short list beside each list. */
+static mor_status grow_near(mor_context *context, mor_soil_contact *contact)
+{
+    const int64_t needed = contact->relation.n_entries;
+    if (needed > contact->near_room) {
+        MOR_FREE(context, &contact->near);
+        contact->near_room = 0;
+        MOR_TRY(context, MOR_NEW(context, &contact->near, needed + needed / 4, "short lists of slots"));
+        contact->near_room = needed + needed / 4;
+    }
+    return MOR_OK;
+}
+
 /* Cuts the lists into runs of one patch each; returns how many there are, of which at most capacity are kept. */
 static int64_t cut_lists(mor_soil_contact *contact)
 {
     const mor_relation *relation = &contact->relation;
+    int32_t *near = contact->near;
     int64_t n_slots = 0;
     for (int64_t place = 0; place < relation->n_occupied; ++place) {
         const int32_t cluster = relation->occupied[place];
@@ -388,12 +403,13 @@ static int64_t cut_lists(mor_soil_contact *contact)
                 --n_slots;
             } else if (n_slots < contact->capacity) {
                 contact->slots[n_slots] = (mor_pair_slot){.list = list + first,
-                                                          .near = mor_relation_near(relation, cluster) + first,
+                                                          .near = near + first,
                                                           .count = k - first,
                                                           .cluster = cluster,
                                                           .patch = patch};
             }
         }
+        near += count;
     }
     contact->first_slot[relation->n_occupied] = (int32_t)n_slots;
     return n_slots;
@@ -505,6 +521,7 @@ mor_status mor_soil_contact_build(mor_context *context, mor_soil_contact *contac
         mor_images_sort(context, &contact->images, &contact->relation);
     }
     contact->n_removed = count_removed(boundary);
+    MOR_TRY(context, grow_near(context, contact));
     const int64_t needed = cut_lists(contact);
     if (needed > contact->capacity) {
         MOR_TRY(context, grow_slots(context, contact, needed));

@@ -157,6 +157,8 @@ typedef struct mor_soil_contact {
     mor_pair_slot *slots;     /* shape [capacity]; by rising cluster, then patch */
     int32_t *first_slot;      /* shape [n_soil_clusters + 1]; of each occupied cluster, and one past the last */
     int32_t *patch_slots;     /* shape [capacity]; slots by patch, rising */
+    int32_t *near;            /* shape [near_room]; short lists of the slots, in their order */
+    int64_t near_room;        /* entries in all lists that there is room for */
     int32_t *first_of_patch;  /* shape [n_patches + 1]; where each patch begins in patch_slots */
     int64_t n_slots;          /* slots in use */
     double velocity[3];       /* of a wall that does not rotate, m/s */

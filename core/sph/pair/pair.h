@@ -158,7 +158,7 @@ typedef struct mor_pair_arrays {
     bool has_singles;               /* nothing but velocities has changed since these were packed */
 } mor_pair_arrays;
 
-/** A sum over the clusters [first, last); writes its own particles only, and momentum the short lists of its clusters,
+/** A sum over the clusters [first, last); writes its own particles only, and momentum the bits of its clusters' lists,
  *  see mor_relation_near. The other loops read those: they come after momentum with the particles at the same places,
  *  or after a build. */
 typedef void (*mor_pair_loop)(const mor_pair_constants *constants, const mor_pair_arrays *arrays, int64_t first,

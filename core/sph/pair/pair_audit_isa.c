@@ -296,8 +296,8 @@ INLINE void audit_chunk_of(audit_part *part, const audit_chunk *it, const audit_
 
 INLINE void audit_cluster(const mor_pair_audit_job *job, int64_t cluster, const audit_form form)
 {
-    const int32_t *near = mor_relation_near(job->arrays->inner, cluster);
-    const int32_t count = job->arrays->inner->near_counts[cluster];
+    int32_t near[CHUNK + MOR_NEAR_GROUP];
+    mor_near_reader reader = mor_near_read(job->arrays->inner, cluster);
     const bool has_stress = job->has_stress || job->constants->has_spin;
     audit_part parts[PARTS];
     geometries found;
@@ -305,12 +305,11 @@ INLINE void audit_cluster(const mor_pair_audit_job *job, int64_t cluster, const 
     for (int k = 0; k < PARTS; ++k) {
         start_part(parts + k, job, cluster * MOR_CLUSTER + k * LANES, form);
     }
-    for (int32_t start = 0; start < count; start += CHUNK) {
-        const int n = count - start < CHUNK ? count - start : CHUNK;
+    for (int n = mor_near_next(&reader, near, CHUNK); n > 0; n = mor_near_next(&reader, near, CHUNK)) {
         for (int q = 0; q < n && has_stress; ++q) {
-            find_tensor(job, near[start + q], stress + (ptrdiff_t)TENSOR * q);
+            find_tensor(job, near[q], stress + (ptrdiff_t)TENSOR * q);
         }
-        const audit_chunk it = {job, near + start, n, &found, has_stress ? stress : NULL};
+        const audit_chunk it = {job, near, n, &found, has_stress ? stress : NULL};
         for (int k = 0; k < PARTS; ++k) {
             audit_chunk_of(parts + k, &it, form);
         }

@@ -36,21 +36,26 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const record_rows
     }
 }
 
-/* The next targets of a list, at most CHUNK. Lists of soil that sleeps hold some out of reach, too, and how many
- * depends on when they were built: what is added up in single precision must not. In double precision zeros change no
- * sum. */
-INLINE int find_chunk(geometries *chunk, int32_t *reached, target_list *list, const frame *f, const int dimension)
+/* The list of a cluster. Bits of soil that sleeps are set beyond its reach, too, and for how many depends on when the
+ * list was built: what is added up in single precision must not, and is compared once more. In double precision zeros
+ * change no sum. */
+typedef struct chunk_list {
+    target_list compared;
+    mor_near_reader reader;
+} chunk_list;
+
+/* The next targets of a list, at most CHUNK, 0 at its end.
+ *  reached: shape [CHUNK + MOR_NEAR_GROUP] */
+INLINE int find_chunk(geometries *chunk, int32_t *reached, chunk_list *it, const frame *f, const int dimension)
 {
 #if defined(MOR_SINGLE)
-    return find_reached(reached, list, f, 1, chunk, NULL, dimension);
+    return find_reached(reached, &it->compared, f, 1, chunk, NULL, dimension);
 #else
     (void)chunk, (void)f, (void)dimension;
-    int n = 0;
-    for (; list->entry < list->count && n < CHUNK; ++list->entry) {
-        const int32_t k = list->entry;
-        const int32_t later = list->targets[k + AHEAD < list->count ? k + AHEAD : k];
-        ask_for(list->records + (int64_t)later * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof(real), 0);
-        reached[n++] = list->targets[k];
+    const int n = mor_near_next(&it->reader, reached, CHUNK);
+    for (int32_t k = it->reader.entry; k < it->reader.count && k < it->reader.entry + CHUNK; ++k) {
+        ask_for(it->compared.records + (int64_t)it->reader.list[k] * MOR_RECORD_SIZE,
+                MOR_RECORD_SIZE * (int64_t)sizeof(real), 0);
     }
     return n;
 #endif
@@ -99,7 +104,8 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
 #endif
     const real *own = records + (cluster * MOR_CLUSTER + (int64_t)part * LANES) * MOR_RECORD_SIZE;
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    target_list list = {records, mor_relation_near(job->inner, cluster), job->inner->near_counts[cluster], 0};
+    chunk_list list = {{records, job->inner->lists[cluster], job->inner->counts[cluster], 0, {NULL, 0}},
+                       mor_near_read(job->inner, cluster)};
     vec stress[6];
     vec sum[MOR_PAIR_DIFFERENCES];
     for (int a = 0; a < 6; ++a) {
@@ -107,12 +113,11 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
     }
     memset(sum, 0, sizeof sum);
     geometries chunk;
-    int32_t reached[CHUNK];
+    int32_t reached[CHUNK + MOR_NEAR_GROUP];
     record_rows rows;
     rows.records = records;
     rows.near = reached;
-    while (list.entry < list.count) {
-        rows.n = find_chunk(&chunk, reached, &list, &f, dimension);
+    while ((rows.n = find_chunk(&chunk, reached, &list, &f, dimension)) > 0) {
         const int n = rows_of(&rows);
         join_records(&rows, MOR_RECORD_SIZE);
         for (int q = 0; q < n; ++q) {

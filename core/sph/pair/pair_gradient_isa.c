@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* FIRST_BYTES: of the next cluster's short list that are prefetched. */
+/* FIRST_BYTES: of the next cluster's list that are prefetched. */
 enum { FIRST_BYTES = 512 };
 
 /* What the gradient loop keeps of its own particles. */
@@ -386,15 +386,18 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     if (form.several) {
         g.soil = load(READ(of_soil) + first * MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_SIZE, MOR_PAIR_OF_SOIL_INDEX);
     }
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
     const int64_t next = first / MOR_CLUSTER + 1;
     if (first % MOR_CLUSTER == 0 && (next + 1) * MOR_CLUSTER <= arrays->n_particles) {
-        const int64_t size_bytes = arrays->inner->near_counts[next] * (int64_t)sizeof *near;
-        ask_for(mor_relation_near(arrays->inner, next), size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
+        const int64_t size_bytes = arrays->inner->counts[next] * (int64_t)sizeof(int32_t);
+        ask_for(arrays->inner->lists[next], size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
+        ask_for(mor_relation_near(arrays->inner, next), 1, 0);
         ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
     }
-    sum_pairs(&sums, totals, arrays, &g, &f, near, count, first, form);
+    mor_near_reader reader = mor_near_read(arrays->inner, first / MOR_CLUSTER);
+    int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
+    for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
+        sum_pairs(&sums, totals, arrays, &g, &f, near, n, first, form);
+    }
 #if !defined(MOR_SINGLE)
     gradient_finish(&sums, c, arrays, first, form);
 #endif

@@ -5,6 +5,7 @@
 
 #include "core/base/math.h"
 #include "core/particle/lane_math.h"
+#include "core/particle/relation_near.h"
 #include "core/sph/pair/pair.h"
 
 #include <math.h>
@@ -111,8 +112,9 @@ INLINE const real *row_from(const real *row, const int k)
 /* The arithmetic of a pair is a long chain of dependent operations, and a processor looks no more than some hundred
  * operations ahead. Cut into passes over a chunk of targets, each chain is short, and many pairs are under way at once.
  * CHUNK: targets in a chunk, ROWS: rows. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD:
- * entries of a list by which records are prefetched. */
-enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32, ROWS = CHUNK / TARGETS };
+ * entries of a list by which records are prefetched. NEAR_ROOM: targets that are found at once where a loop does not go
+ * chunk by chunk; whole chunks, for in single precision the bits depend on where these end. */
+enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32, ROWS = CHUNK / TARGETS, NEAR_ROOM = 8 * CHUNK };
 
 /** The geometry of a target and the lanes of a cluster. */
 typedef struct geometry {

@@ -399,30 +399,31 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 #else
     double(*totals)[MOR_CLUSTER] = NULL;
 #endif
-    target_list list = {READ(records), arrays->inner->lists[cluster], arrays->inner->counts[cluster], 0};
+    target_list list = {READ(records),
+                        arrays->inner->lists[cluster],
+                        arrays->inner->counts[cluster],
+                        0,
+                        {mor_relation_near(arrays->inner, cluster), 0}};
     frame frames[PARTS]; /* stay in registers, for nobody else sees them */
     for (int part = 0; part < PARTS; ++part) {
         frames[part] = parts[part].frame;
     }
-    int32_t *near = mor_relation_near(arrays->inner, cluster);
-    int32_t n_near = 0;
+    int32_t near[CHUNK];
     uint64_t seen[PARTS];
     int32_t of_part[CHUNK]; /* those that a part sees, where separations are not kept for all parts at once */
     while (list.entry < list.count) {
-        const int n = find_reached(near + n_near, &list, frames, PARTS, chunks, seen, form.dimension);
-        rows.targets.near = near + n_near;
+        const int n = find_reached(near, &list, frames, PARTS, chunks, seen, form.dimension);
+        rows.targets.near = near;
         rows.targets.n = n;
         prepare_rows(&rows, form);
         for (int part = 0; part < PARTS && n > 0; ++part) {
             if (SELECTS) {
-                rows.targets.n = select_targets(near + n_near, n, seen[part], of_part);
+                rows.targets.n = select_targets(near, n, seen[part], of_part);
                 rows.targets.near = of_part;
             }
             add_chunk(parts + part, chunks + part % KEPT, &rows, totals, c, form);
         }
-        n_near += n;
     }
-    arrays->inner->near_counts[cluster] = n_near;
 #if defined(MOR_SINGLE)
     MOR_ISA_NAME(mor_pair_finish_momentum)(totals[0], c, arrays, cluster, form);
 #else

@@ -89,13 +89,23 @@ typedef struct target_list {
     const real *records;    /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
     const int32_t *targets; /* shape [count] */
     int32_t count;
-    int32_t entry; /* next of them */
+    int32_t entry;          /* next of them */
+    mor_near_writer writer; /* keeps who is in reach; words NULL: it does not */
 } target_list;
 
 /** Prefetches the record of a target some entries on from entry k of a list. */
 INLINE void prefetch_ahead(const target_list *it, int32_t k)
 {
     __builtin_prefetch(it->records + (int64_t)it->targets[k + AHEAD < it->count ? k + AHEAD : k] * MOR_RECORD_SIZE);
+}
+
+/** Keeps whether entry k of a list is in reach; returns the same, 0 or 1. */
+INLINE int keep_reached(target_list *it, int32_t k, int is_reached)
+{
+    if (it->writer.words != NULL) {
+        mor_near_keep(&it->writer, k, it->count, is_reached);
+    }
+    return is_reached != 0;
 }
 
 /** Finds the next targets of a list that are in reach of any particle, until there are as many as a chunk holds.
@@ -120,11 +130,11 @@ INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, 
         prefetch_ahead(it, k);
         prefetch_ahead(it, next);
         const int lanes = lanes_reached(frames, it->records, it->targets[k], it->targets[next], reach2, dimension);
-        reached[n] = it->targets[k++];
-        n += (lanes & FIRST_TARGET) != 0;
+        reached[n] = it->targets[k];
+        n += keep_reached(it, k++, lanes & FIRST_TARGET);
         if (k < it->count && n < CHUNK) {
-            reached[n] = it->targets[k++];
-            n += (lanes & ~FIRST_TARGET) != 0;
+            reached[n] = it->targets[k];
+            n += keep_reached(it, k++, lanes & ~FIRST_TARGET);
         }
     }
 #else
@@ -147,7 +157,7 @@ INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, 
             }
         }
         reached[n] = it->targets[k];
-        n += any;
+        n += keep_reached(it, k, any);
     }
 #endif
     it->entry = k;

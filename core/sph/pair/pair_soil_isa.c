@@ -13,18 +13,20 @@ INLINE void diffuse_part(const mor_pair_constants *c, const mor_pair_arrays *arr
     const vec diffusivity = load(own, MOR_PAIR_FIELD_SIZE, MOR_PAIR_FIELD_DIFFUSIVITY);
     vec rate = broadcast(0.0);
     vec diagonal = broadcast(0.0);
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
-    for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = target_of(arrays, near[entry]);
-        const double *other = arrays->field + (int64_t)near[entry] * MOR_PAIR_FIELD_SIZE;
-        const pair p = pair_of(&f, target, 3);
-        const double there = other[MOR_PAIR_FIELD_DIFFUSIVITY];
-        const vec sum = diffusivity + there;
-        const vec mean = select_lanes(sum > 0.0, diffusivity * there / sum, broadcast(0.0));
-        const vec w = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME] * mean;
-        rate += w * (other[MOR_PAIR_FIELD_VALUE] - value);
-        diagonal += w;
+    int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
+    mor_near_reader reader = mor_near_read(arrays->inner, first / MOR_CLUSTER);
+    for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
+        for (int32_t entry = 0; entry < n; ++entry) {
+            const double *target = target_of(arrays, near[entry]);
+            const double *other = arrays->field + (int64_t)near[entry] * MOR_PAIR_FIELD_SIZE;
+            const pair p = pair_of(&f, target, 3);
+            const double there = other[MOR_PAIR_FIELD_DIFFUSIVITY];
+            const vec sum = diffusivity + there;
+            const vec mean = select_lanes(sum > 0.0, diffusivity * there / sum, broadcast(0.0));
+            const vec w = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME] * mean;
+            rate += w * (other[MOR_PAIR_FIELD_VALUE] - value);
+            diagonal += w;
+        }
     }
     /* The own particle is in its list; where it is the only one with weight, nothing diffuses. */
     const vec factor = broadcast(4.0 * c->laplacian_factor);
@@ -51,21 +53,23 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
     const vec v[3] = {load(own, MOR_RECORD_SIZE, 4), load(own, MOR_RECORD_SIZE, 5), load(own, MOR_RECORD_SIZE, 6)};
     vec sums[6];
     memset(sums, 0, sizeof sums);
-    const int32_t *near = mor_relation_near(arrays->inner, first / MOR_CLUSTER);
-    const int32_t count = arrays->inner->near_counts[first / MOR_CLUSTER];
-    for (int32_t entry = 0; entry < count; ++entry) {
-        const double *target = target_of(arrays, near[entry]);
-        const pair p = pair_of(&f, target, 3);
-        const vec square = p.reach * p.reach;
-        const vec weight =
-            square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
-        const vec overlap = 1.0 - p.distance / c->shift_diameter;
-        const vec floored = -smaller(-overlap, broadcast(0.1));
-        const vec repulsion = select_lanes(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
-        const vec inside = select_lanes(p.reach > 0.0, repulsion, broadcast(0.0));
-        for (int a = 0; a < 3; ++a) {
-            sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
-            sums[3 + a] += inside * p.r[a];
+    int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
+    mor_near_reader reader = mor_near_read(arrays->inner, first / MOR_CLUSTER);
+    for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
+        for (int32_t entry = 0; entry < n; ++entry) {
+            const double *target = target_of(arrays, near[entry]);
+            const pair p = pair_of(&f, target, 3);
+            const vec square = p.reach * p.reach;
+            const vec weight =
+                square * square * (5.0 - 4.0 * p.reach) * (target[MOR_RECORD_VOLUME] * c->kernel_normalization);
+            const vec overlap = 1.0 - p.distance / c->shift_diameter;
+            const vec floored = -smaller(-overlap, broadcast(0.1));
+            const vec repulsion = select_lanes(overlap > 0.0, 3.0 * overlap, floored) / p.distance;
+            const vec inside = select_lanes(p.reach > 0.0, repulsion, broadcast(0.0));
+            for (int a = 0; a < 3; ++a) {
+                sums[a] += weight * (target[MOR_RECORD_VELOCITY + a] - v[a]);
+                sums[3 + a] += inside * p.r[a];
+            }
         }
     }
     for (int a = 0; a < 6; ++a) {

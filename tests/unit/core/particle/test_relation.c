@@ -3,6 +3,9 @@
 #include "core/particle/relation.h"
 #include "tests/common/cloud.h"
 
+/* After the others: the names in it are short. */
+#include "core/particle/relation_near.h"
+
 #include <math.h>
 
 static const int sizes[] = {1, 2, 7, 8, 9, 16, 63, 200};
@@ -29,8 +32,18 @@ static bool sees(const cloud *source, int64_t i, const cloud *target, int64_t j,
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach * reach;
 }
 
-/* Each list must be exactly the ascending union of what its eight see, which brute force finds here, and the short list
- * of a build the same. */
+/* All bits of a list are set, and none beyond it. */
+static void assert_near_all(const mor_relation *relation, int64_t cluster)
+{
+    const int32_t count = relation->counts[cluster];
+    for (int32_t k = 0; k < MOR_RELATION_WORD * mor_relation_words(count); ++k) {
+        const uint32_t bit = mor_relation_near(relation, cluster)[k / MOR_RELATION_WORD] >> k % MOR_RELATION_WORD & 1U;
+        assert_int_equal(bit, k < count);
+    }
+}
+
+/* Each list must be exactly the ascending union of what its eight see, which brute force finds here, with all bits
+ * set. */
 static void assert_complete(const mor_relation *relation, const cloud *source, const cloud *target)
 {
     int64_t n_entries = 0;
@@ -48,10 +61,7 @@ static void assert_complete(const mor_relation *relation, const cloud *source, c
             }
         }
         assert_int_equal(relation->counts[cluster], entry);
-        assert_int_equal(relation->near_counts[cluster], entry);
-        for (int64_t k = 0; k < entry; ++k) {
-            assert_int_equal(mor_relation_near(relation, cluster)[k], relation->lists[cluster][k]);
-        }
+        assert_near_all(relation, cluster);
         n_entries += entry;
         if (entry > 0) {
             assert_int_equal(relation->occupied[n_occupied++], cluster);
@@ -202,15 +212,15 @@ static void rebuilding_allocates_only_when_lists_have_grown(void **state)
 static void list_that_just_outgrows_its_buffer_is_whole(void **state)
 {
     (void)state;
-    enum { MANY = 2150 };
+    enum { MANY = 4200 };
     double *records = calloc(MANY + MOR_CLUSTER, 3 * sizeof *records); /* all in one place */
     assert_non_null(records);
     mor_context context;
     mor_context_init(&context);
     cloud source;
     cloud_open(&context, &source, records, 1);
-    /* A first build with one target makes a buffer with room for some four thousand more, in two lists. */
-    for (int n = 2030; n <= MANY; n += n > 2070 ? 75 : 1) {
+    /* A first build with one target makes a buffer with room for some four thousand more, their bits included. */
+    for (int n = 3940; n <= MANY; n += n > 4020 ? 75 : 1) {
         mor_relation relation = open_relation(&context, &source);
         mor_tree tree;
         assert_int_equal(mor_tree_init(&context, &tree, n), MOR_OK);
@@ -219,9 +229,10 @@ static void list_that_just_outgrows_its_buffer_is_whole(void **state)
         build(&context, &relation, &source, &source, 1.0);
         assert_int_equal(mor_relation_build(&context, &relation, &source.view, &target, 1.0), MOR_OK);
         assert_int_equal(relation.counts[0], n);
-        assert_true(2 * n <= relation.capacities[0]); /* what was counted was also written */
+        /* What was counted was also written. */
+        assert_true(n + mor_relation_words(n) <= relation.capacities[0]);
         assert_int_equal(relation.lists[0][n - 1], n - 1);
-        assert_int_equal(mor_relation_near(&relation, 0)[n - 1], n - 1);
+        assert_near_all(&relation, 0);
         mor_tree_clear(&context, &tree);
         mor_relation_clear(&context, &relation);
     }
@@ -342,7 +353,7 @@ static void nothing_is_seen_of_an_empty_set_or_beyond_reach(void **state)
     assert_int_equal(context.memory_bytes, 0);
 }
 
-static void short_lists_that_were_shortened_are_whole_again(void **state)
+static void bits_that_were_cleared_are_set_again(void **state)
 {
     (void)state;
     mor_context context;
@@ -352,14 +363,61 @@ static void short_lists_that_were_shortened_are_whole_again(void **state)
     mor_relation relation = open_relation(&context, &c);
     build(&context, &relation, &c, &c, 0.3);
     for (int64_t cluster = 0; cluster < relation.n_clusters; cluster += 2) {
-        mor_relation_near(&relation, cluster)[0] = -1;
-        relation.near_counts[cluster] = 1;
+        memset(mor_relation_near(&relation, cluster), 0,
+               (size_t)mor_relation_words(relation.counts[cluster]) * sizeof(uint32_t));
     }
     mor_relation_restore_near(&relation, 0, relation.n_clusters);
     assert_complete(&relation, &c, &c);
     mor_relation_clear(&context, &relation);
     cloud_close(&c);
     assert_int_equal(context.memory_bytes, 0);
+}
+
+/* Reads bits that were written, in blocks, and compares with those asked for. */
+static void check_reading(const int32_t *list, uint32_t *words, const bool *wanted, int32_t count, int32_t room)
+{
+    enum { ROOM_MAX = 64 };
+    const mor_relation relation = {.lists = (int32_t *[]){(int32_t *)list}, .counts = &count};
+    mor_near_writer writer = {words, 0};
+    for (int32_t k = 0; k < count; ++k) {
+        mor_near_keep(&writer, k, count, wanted[k] ? 4 : 0);
+    }
+    mor_near_reader reader = mor_near_read(&relation, 0);
+    int32_t found[ROOM_MAX + MOR_NEAR_GROUP];
+    int32_t entry = 0;
+    int32_t n = room;
+    while (n > 0) {
+        const int32_t last = n;
+        n = mor_near_next(&reader, found, room);
+        assert_true(n == 0 || last == room); /* blocks are full but for the last one */
+        for (int32_t k = 0; k < n; ++k) {
+            while (!wanted[entry]) {
+                ++entry;
+            }
+            assert_int_equal(found[k], list[entry++]);
+        }
+    }
+    for (; entry < count; ++entry) {
+        assert_false(wanted[entry]);
+    }
+}
+
+static void blocks_hold_the_entries_whose_bits_were_kept(void **state)
+{
+    (void)state;
+    enum { MANY = 300 };
+    static const double shares[] = {0.0, 0.1, 0.6, 1.0};
+    int32_t list[MANY + MANY / MOR_RELATION_WORD + 1]; /* with its bits */
+    bool wanted[MANY];
+    for (int32_t count = 0; count <= MANY; count += count < 70 ? 1 : 23) {
+        for (int round = 0; round < 4 * 3; ++round) {
+            for (int32_t k = 0; k < count; ++k) {
+                list[k] = 7 * k + round;
+                wanted[k] = cloud_number((uint64_t)k, (uint64_t)(1000 * round + count), 0.0, 1.0) < shares[round / 3];
+            }
+            check_reading(list, (uint32_t *)(list + count), wanted, count, (int32_t[]){16, 17, 64}[round % 3]);
+        }
+    }
 }
 
 static void relation_made_for_another_set_is_refused(void **state)
@@ -393,7 +451,8 @@ int main(void)
         cmocka_unit_test(contact_lists_hold_what_brute_force_finds),
         cmocka_unit_test(lists_are_whole_however_many_clusters_are_in_reach),
         cmocka_unit_test(nothing_is_seen_of_an_empty_set_or_beyond_reach),
-        cmocka_unit_test(short_lists_that_were_shortened_are_whole_again),
+        cmocka_unit_test(bits_that_were_cleared_are_set_again),
+        cmocka_unit_test(blocks_hold_the_entries_whose_bits_were_kept),
         cmocka_unit_test(relation_made_for_another_set_is_refused),
     };
     return CLOUD_RUN(tests);

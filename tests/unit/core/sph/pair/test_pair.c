@@ -498,6 +498,15 @@ static void number_of_particles_need_not_fill_clusters(void **state)
     }
 }
 
+static void more_may_be_in_reach_than_are_found_at_once(void **state)
+{
+    (void)state;
+    assembly a;
+    assembly_open_dense(&a, 600);
+    compare_all_tables(&a);
+    assembly_close(&a);
+}
+
 static void one_particle_alone_feels_nothing(void **state)
 {
     (void)state;
@@ -579,6 +588,7 @@ int main(void)
         cmocka_unit_test(artificial_stress_follows_its_exponent),
         cmocka_unit_test(every_part_of_the_scheme_agrees_with_the_equations),
         cmocka_unit_test(number_of_particles_need_not_fill_clusters),
+        cmocka_unit_test(more_may_be_in_reach_than_are_found_at_once),
         cmocka_unit_test(one_particle_alone_feels_nothing),
         cmocka_unit_test(far_from_the_origin_the_sums_are_as_good_as_the_positions),
         cmocka_unit_test(limiter_saturates_for_fast_and_slow_pairs),

@@ -149,35 +149,23 @@ static void sums_differ_from_those_in_double_by_roundings(void **state)
     assembly_for_parts(check_against_double);
 }
 
-/* Just above h / 4, and so dense that a hundred see one another. */
-#define DENSE (0.33 * ASSEMBLY_SPACING)
-
-/* So many particles that all see one another, strangers that are listed with them, and tension in every third. */
+/* Beside strangers, with tension in every third. */
 static void open_chunk(assembly *a, int n_near)
 {
-    enum { STRANGERS = 20 };
-    double points[3 * CLOUD_MAX] = {0.0};
-    const int n = n_near + STRANGERS;
-    for (int i = 0; i < n; ++i) {
-        points[3 * i] = DENSE * (i % 5) + (i < n_near ? 0.0 : 20.0 * ASSEMBLY_SPACING);
-        points[3 * i + 1] = DENSE * (i / 5 % 5);
-        points[3 * i + 2] = DENSE * (i / 25);
-    }
-    assembly_open(a, 3, points, n);
+    assembly_open_dense(a, n_near);
     assembly_choose_parts(a, ASSEMBLY_PARTS - 1);
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < a->n; ++i) {
         if (i % 3 != 0) {
             memset(a->artificial + 6 * i, 0, 6 * sizeof *a->artificial);
         }
     }
-    assembly_list(a, 1000.0 * ASSEMBLY_SPACING);
 }
 
 /* A row of two targets may hold one twice, or one without tension, and a chunk may be empty: none of it shows. */
 static void chunks_of_any_size_give_the_sums(void **state)
 {
     (void)state;
-    static const int numbers[] = {1, 2, 7, 63, 64, 65, 100};
+    static const int numbers[] = {1, 2, 7, 63, 64, 65, 100, 600};
     const bool has_both = mor_pair_select("avx2") != NULL && mor_pair_select("avx512") != NULL;
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
         static assembly_sums narrow;
