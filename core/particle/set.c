@@ -49,8 +49,12 @@ mor_status mor_set_init(mor_context *context, mor_set *set, const char *name, in
 void mor_set_clear(mor_context *context, mor_set *set)
 {
     for (int field = 0; field < MOR_FIELDS_MAX; ++field) {
-        MOR_FREE(context, &set->data[field]);
+        if ((set->borrowed >> field & 1u) == 0) {
+            MOR_FREE(context, &set->data[field]);
+        }
+        set->data[field] = NULL;
     }
+    set->borrowed = 0;
     MOR_FREE(context, &set->id);
     set->n_particles = 0;
     set->n_created = 0;
@@ -88,6 +92,32 @@ mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schem
         MOR_TRY(context, mor_set_add_field(context, set, &info, &fields[k]));
     }
     return MOR_OK;
+}
+
+int mor_set_width(const mor_set *set, uint64_t fields)
+{
+    int width = 0;
+    for (int field = 0; field < set->n_fields; ++field) {
+        width += (fields >> field & 1u) != 0 && set->data[field] != NULL ? set->fields[field].n_components : 0;
+    }
+    return width;
+}
+
+void mor_set_place(mor_context *context, mor_set *set, uint64_t fields, double *memory)
+{
+    const int64_t n_rows = (set->n_created + PADDING - 1) / PADDING * PADDING;
+    for (int field = 0; field < set->n_fields; ++field) {
+        const uint64_t bit = (uint64_t)1 << field;
+        if ((fields & bit) == 0 || set->data[field] == NULL) {
+            continue;
+        }
+        if ((set->borrowed & bit) == 0) {
+            MOR_FREE(context, &set->data[field]);
+        }
+        set->borrowed |= bit;
+        set->data[field] = memory;
+        memory += n_rows * set->fields[field].n_components;
+    }
 }
 
 int mor_set_find_field(const mor_set *set, const char *name)

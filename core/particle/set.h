@@ -24,6 +24,7 @@ typedef struct mor_set {
     double *data[MOR_FIELDS_MAX];          /* shape [n_fields] of [n_particles, n_components], NULL for unused
                                              fields; unit: of the field */
     int64_t *id;                           /* shape [n_particles]; number given at creation, unchanged by sorting */
+    uint64_t borrowed;                     /* bit of each field whose memory is somebody else's */
     uint64_t generation;                   /* raised by every resize or permute */
 } mor_set;
 
@@ -51,6 +52,18 @@ mor_status mor_set_add_field(mor_context *context, mor_set *set, const mor_field
  *  @param fields  [out]     shape [n_state]; indices of the fields in set->data
  *  Returns: as mor_set_add_field. */
 mor_status mor_set_add_state(mor_context *context, mor_set *set, const mor_schema *state, int n_state, int *fields);
+
+/** Returns the components of some fields together, of those that the set has.
+ *  @param fields [in]  bit of each */
+int mor_set_width(const mor_set *set, uint64_t fields);
+
+/** Has fields one after another in memory of somebody else, for scratch that nobody needs while what else is there is
+ *  needed. What they held is lost.
+ *  @param set    [in,out]  those of the fields that it has
+ *  @param fields [in]      bit of each
+ *  @param memory [in,out]  shape [n_created padded to 8, mor_set_width]; borrowed until they are placed again or the
+ *                          set is cleared */
+void mor_set_place(mor_context *context, mor_set *set, uint64_t fields, double *memory);
 
 /** Returns the index of a field by name, or -1.
  *  @param name [in]  zero-terminated */

@@ -72,6 +72,9 @@ static bool has_audit(const void *owner)
 #define GAPS (BIT(GAP) | BIT(GAP_FACE) | BIT(FACE_GROWTH))
 #define CALM (BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_STRESS) | BIT(QUIET_SPAN))
 
+/* Found late in a step, when the records of forces are not needed any more. */
+#define LATE (BIT(VELOCITY_GRADIENT) | BIT(HOURGLASS_RATE) | BIT(MOMENTS))
+
 #define OR_BIT(name) | BIT(name)
 #define STANDING (0 MOR_SOIL_STANDING(OR_BIT))
 
@@ -90,7 +93,7 @@ static const mor_stage soil_stages[] = {
     {"pack", mor_soil_pack,
      BIT(POSITION) | BIT(VELOCITY) | BIT(DENSITY) | BIT(STRESS) | BIT(MASS) | BIT(HOURGLASS) | BIT(MEAN_STRESS) |
          BIT(FLOW) | BIT(SPIN_STRESS) | SHARED(STATE) | SHARED(LISTS),
-     SHARED(RECORDS), 0, "packs one record per particle for the pair loops", NULL},
+     SHARED(RECORDS) | SHARED(FORCE_RECORDS), 0, "packs records of the particles for the pair loops", NULL},
     {"wall sums", mor_soil_sum_walls, SHARED(RECORDS) | SHARED(LISTS) | SHARED(BOUNDARIES), SHARED(WALL_SUMS), 0,
      "kernel sums over walls and rocks in reach", NULL},
     {"density", mor_soil_reinitialize_density, SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(MASS), 0,
@@ -101,9 +104,10 @@ static const mor_stage soil_stages[] = {
      has_artificial_stress},
     {"present skew stress", mor_soil_find_present_spin,
      SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), SHARED(CLOSED),
-     BIT(SPIN_STRESS) | SHARED(RECORDS),
+     BIT(SPIN_STRESS) | SHARED(FORCE_RECORDS),
      "with which the forces of the soil have no moment, found in this step, when switched on", has_present_spin},
-    {"momentum", mor_soil_sum_momentum, SHARED(RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
+    {"momentum", mor_soil_sum_momentum,
+     SHARED(RECORDS) | SHARED(FORCE_RECORDS) | SHARED(LISTS) | BIT(ARTIFICIAL_STRESS) | BIT(STRAIN_RATE),
      BIT(ACCELERATION) | BIT(STRESS_DIFFUSION) | SHARED(SHORT_LISTS) | BIT(HOURGLASS_MOMENT), 0,
      "acceleration and stress diffusion by the neighbors", NULL},
     {"impulse on sleep", mor_soil_count_sleep, BIT(ACCELERATION) | BIT(MASS), 0, SHARED(LISTS),
@@ -117,7 +121,7 @@ static const mor_stage soil_stages[] = {
      BIT(ACCELERATION) | BIT(VELOCITY) | SHARED(RECORDS) | SHARED(BOUNDS) | SHARED(WALL_FORCES),
      "velocities to the end of the step", NULL},
     {"velocity gradient", mor_soil_sum_gradient, SHARED(RECORDS) | SHARED(SHORT_LISTS),
-     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE) | SHARED(MOMENTS), 0,
+     BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE) | BIT(HOURGLASS_RATE) | BIT(MOMENTS), 0,
      "velocity gradient and density rate by the neighbors", NULL},
     {"boundary gradient", mor_soil_sum_boundary_gradient,
      SHARED(RECORDS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | SHARED(STATE) | BIT(MEAN_STRESS), 0,
@@ -125,7 +129,7 @@ static const mor_stage soil_stages[] = {
      "velocity gradient and density rate by walls and rocks", NULL},
     {"energy of forces", mor_soil_audit_forces,
      SHARED(SHORT_LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(BOUNDARIES) | BIT(MASS) | BIT(VELOCITY) |
-         BIT(ACCELERATION) | BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS),
+         BIT(ACCELERATION) | BIT(STRAIN_RATE) | BIT(ARTIFICIAL_STRESS) | BIT(HOURGLASS) | BIT(SPIN_STRESS),
      0, SHARED(ENERGY_SUMS) | SHARED(RECORDS),
      "energy dissipated by forces other than the stress, at an interval, when a probe needs it", has_audit},
     {"gradient correction", mor_soil_correct_gradient,
@@ -133,7 +137,7 @@ static const mor_stage soil_stages[] = {
      BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE), "corrects both to be exact for linear fields, when switched on",
      has_correction},
     {"velocity gradient fit", mor_soil_fit_gradient,
-     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | SHARED(MOMENTS) | BIT(DENSITY) | BIT(FLOW),
+     SHARED(LISTS) | SHARED(WALL_SUMS) | SHARED(WALL_FORCES) | BIT(MOMENTS) | BIT(DENSITY) | BIT(FLOW),
      SHARED(CLOSED) | BIT(STRAIN_RATE), BIT(VELOCITY_GRADIENT) | BIT(DENSITY_RATE),
      "makes both those of the linear field that fits the neighbors, when switched on; stores the strain rate", has_fit},
     {"strain rate", mor_soil_store_strain_rate, BIT(VELOCITY_GRADIENT), BIT(STRAIN_RATE), 0,
@@ -148,11 +152,11 @@ static const mor_stage soil_stages[] = {
     {"nonlocal field", mor_soil_diffuse_fields, SHARED(RECORDS) | SHARED(SHORT_LISTS) | BIT(STRESS), 0, SHARED(STATE),
      "diffuses the field of a nonlocal law, when there is one", mor_soil_has_field},
     {"stress", mor_soil_advance_stress,
-     BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS) | SHARED(MOMENTS), 0,
+     BIT(VELOCITY_GRADIENT) | BIT(STRESS_DIFFUSION) | BIT(DENSITY) | SHARED(LISTS) | BIT(MOMENTS), 0,
      BIT(STRESS) | BIT(SEPARATION) | SHARED(STATE), "stress and state by the material, where soil has not come apart",
      NULL},
     {"memory", mor_soil_remember,
-     BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | SHARED(MOMENTS) |
+     BIT(VELOCITY_GRADIENT) | BIT(STRESS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT) | BIT(MOMENTS) |
          SHARED(WALL_SUMS) | SHARED(LISTS),
      SHARED(CLOSED), BIT(SPIN_STRESS) | BIT(MEAN_STRESS) | BIT(FLOW) | BIT(HOURGLASS),
      "skew stress, recent mean of the stress and hourglass displacement for the next step, when switched on",
@@ -171,11 +175,14 @@ static const mor_stage soil_stages[] = {
      SHARED(ORDER), "removes particles that left the domain, when outflow is allowed", NULL},
 };
 
+enum { N_STAGES = sizeof soil_stages / sizeof *soil_stages };
+
 static const uint64_t evolving_fields = STANDING | BIT(MASS) | BIT(CROSSINGS) | SHARED(STATE) | SHARED(BOUNDARIES) |
                                         SHARED(ENERGY_SUMS) | SHARED(BOUNDS) | SHARED(ORDER) | SHARED(LISTS);
 
 /* Arrays that one stage writes and others read, for the checked build. Those of walls are not among them: they are
- * reallocated with the lists, and have lanes without particles; nor what is kept of clusters at walls, which is, too.
+ * reallocated with the lists, and have lanes without particles; nor what is kept of clusters at walls, which is, too;
+ * nor the records of forces, of which a part stays as it is in steps without stress diffusion.
  * What is closed for all particles is that of one option of the gradient or of the skew stress. */
 static void visit_shared(void *owner, mor_shared_visit visit, void *job)
 {
@@ -183,7 +190,6 @@ static void visit_shared(void *owner, mor_shared_visit visit, void *job)
     const int64_t n = soil->set.n_particles;
     visit(job, MOR_RESOURCE_RECORDS, soil->records, n * MOR_RECORD_SIZE);
     visit(job, MOR_RESOURCE_LISTS, soil->of_soil, n * MOR_PAIR_OF_SOIL_SIZE);
-    visit(job, MOR_RESOURCE_MOMENTS, soil->moments, 6 * n);
     visit(job, MOR_RESOURCE_REGULARIZATION, soil->regularization, 6 * n);
 }
 
@@ -256,6 +262,26 @@ static mor_status set_kinds(mor_context *context, mor_soil *soil)
     return MOR_OK;
 }
 
+void mor_soil_place_late(mor_context *context, mor_soil *soil)
+{
+    if (soil->settings.shares_memory && soil->extra != NULL) {
+        mor_set_place(context, &soil->set, LATE, soil->extra);
+    }
+}
+
+/* Makes room for the records of forces, and has what is found later in a step in it where memory is shared. */
+static mor_status allocate_extra(mor_context *context, mor_soil *soil, int64_t padded)
+{
+    if (!has_angular_momentum(soil) && !has_hourglass(soil) && !has_mean_stress(soil)) {
+        return MOR_OK;
+    }
+    const int width = soil->settings.shares_memory ? mor_set_width(&soil->set, LATE) : 0;
+    soil->extra_width = width > MOR_EXTRA_SIZE ? width : MOR_EXTRA_SIZE;
+    MOR_TRY(context, MOR_NEW(context, &soil->extra, padded * soil->extra_width, "neighbor records"));
+    mor_soil_place_late(context, soil);
+    return mor_stage_verify_shared(context, soil_stages, N_STAGES, SHARED(FORCE_RECORDS), LATE, &soil->set);
+}
+
 static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_particles)
 {
     const mor_soil_settings *s = &soil->settings;
@@ -275,15 +301,10 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     if (s->scheme.xsph > 0.0 || s->scheme.shifting) {
         MOR_TRY(context, MOR_NEW(context, &soil->regularization, padded * 6, "XSPH and shifting sums"));
     }
-    if (soil->wall_clusters.has_closed) {
-        MOR_TRY(context, MOR_NEW(context, &soil->moments, padded * 6, "kernel-gradient moments"));
-    }
     if (has_correction(soil) || has_present_spin(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
     }
-    if (has_angular_momentum(soil) || has_hourglass(soil) || has_mean_stress(soil)) {
-        MOR_TRY(context, MOR_NEW(context, &soil->extra, padded * MOR_EXTRA_SIZE, "neighbor records"));
-    }
+    MOR_TRY(context, allocate_extra(context, soil, padded));
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
@@ -333,6 +354,7 @@ mor_status mor_soil_init(mor_context *context, mor_soil *soil, const char *name,
     fields &= scheme->stress_diffusion > 0.0 ? all : ~BIT(STRESS_DIFFUSION);
     fields &= scheme->soil_hourglass > 0.0 ? all : ~(BIT(HOURGLASS) | BIT(HOURGLASS_RATE) | BIT(HOURGLASS_MOMENT));
     fields &= scheme->angular_momentum ? all : ~(BIT(SPIN_STRESS) | BIT(HOURGLASS_MOMENT));
+    fields &= has_fit(soil) || mor_soil_has_last_spin(soil) ? all : ~BIT(MOMENTS);
     fields &=
         scheme->stress_diffusion > 0.0 && scheme->stress_diffusion_limiter == 2 ? all : ~(BIT(MEAN_STRESS) | BIT(FLOW));
     fields &= scheme->separation_memory ? all : ~BIT(SEPARATION);
@@ -377,7 +399,6 @@ void mor_soil_clear(mor_context *context, mor_soil *soil)
     MOR_FREE(context, &soil->density_sums);
     MOR_FREE(context, &soil->diffusion);
     MOR_FREE(context, &soil->field_records);
-    MOR_FREE(context, &soil->moments);
     mor_wall_clusters_clear(context, &soil->wall_clusters);
     MOR_FREE(context, &soil->closed);
     MOR_FREE(context, &soil->extra);
@@ -458,7 +479,7 @@ void mor_soil_stepper(mor_soil *soil, mor_stepper *stepper, uint64_t *evolving)
 {
     static const mor_stepper_operations operations = {
         .kind = "soil", .propose = mor_soil_propose_step, .list_state = mor_soil_list_state, .resume = mor_soil_resume};
-    const int n_stages = (int)(sizeof soil_stages / sizeof *soil_stages);
+    const int n_stages = N_STAGES;
     *stepper = (mor_stepper){.name = soil->set.name,
                              .operations = &operations,
                              .owner = soil,
@@ -483,11 +504,11 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     double bytes = n * (sizeof *soil->set.id + sizeof *soil->order) + padded * MOR_RECORD_SIZE * sizeof(double);
     bytes += (6.0 * n + 36.0 * (double)soil->tree.n_clusters) * sizeof(double);
     for (int field = 0; field < soil->set.n_fields; ++field) {
-        bytes +=
-            soil->set.data[field] != NULL ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
+        const bool is_own = soil->set.data[field] != NULL && (soil->set.borrowed >> field & 1u) == 0;
+        bytes += is_own ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;
     }
     bytes += soil->of_soil != NULL ? padded * (MOR_PAIR_OF_SOIL_SIZE * sizeof(double) + 1.0 / MOR_CLUSTER) : 0.0;
-    const int n_tensors = (soil->regularization != NULL) + (soil->moments != NULL) + (soil->closed != NULL);
+    const int n_tensors = (soil->regularization != NULL) + (soil->closed != NULL);
     bytes += n_tensors * padded * 6.0 * sizeof(double);
     bytes += soil->density_sums != NULL ? n * sizeof(double) : 0.0;
     bytes += mor_wall_clusters_bytes(&soil->wall_clusters, soil->tree.n_clusters);
@@ -498,7 +519,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
                  : padded * mor_pair_singles_bytes(soil->extra != NULL, soil->settings.scheme.artificial_stress,
                                                    soil->settings.scheme.reconstruction == 1, soil->of_soil != NULL);
     bytes += soil->sleep.states != NULL ? mor_sleep_bytes(&soil->sleep) : 0.0;
-    bytes += soil->extra != NULL ? padded * (double)MOR_EXTRA_SIZE * sizeof(double) : 0.0;
+    bytes += padded * soil->extra_width * (double)sizeof(double);
     bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 2 * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {
         bytes += (double)soil->inner.capacities[buffer] * sizeof(int32_t);

@@ -80,11 +80,11 @@ typedef struct mor_soil {
     double *of_soil;        /* shape [n_particles padded to 8, MOR_PAIR_OF_SOIL_SIZE], units of the enum; or NULL */
     int8_t *one_soil;       /* shape [clusters]; the one soil that a cluster sees, or -1; NULL: one soil */
     double *regularization; /* shape [n_particles, 6]; XSPH velocity [m/s] and shift sum [1]; or NULL */
-    double *moments;        /* shape [n_particles, 6]; moments of the kernel gradient over the soil, 1; or NULL */
     double *closed;         /* shape [n_particles, 6]; with what boundaries close of them, 1; NULL where that is needed
                              * beside boundaries alone */
     mor_wall_clusters wall_clusters; /* of the particles beside boundaries */
     double *extra;                   /* shape [n_particles padded to 8, 16]; units of MOR_EXTRA_...; or NULL */
+    int extra_width;                 /* numbers of a particle for which it has room; 0 without, else at least 16 */
     mor_pair_singles singles;        /* copies of what the pair loops read, with mixed precision; or zeroed */
     double *field_records; /* shape [n_particles padded to 8, MOR_PAIR_FIELD_SIZE]; units of the enum; or NULL */
     double *diffusion;     /* shape [n_particles padded to 8, MOR_PAIR_DIFFUSION_SIZE]; units of the enum; or NULL */

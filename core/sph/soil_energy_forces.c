@@ -131,7 +131,10 @@ static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *vi
     arrays.strain_rate = mor_images_extend(context, &soil->images, rate, 6, soil->image_strains);
     const mor_pair_audit_job pairs = {.constants = &soil->constants,
                                       .arrays = &arrays,
+                                      .images = &soil->images,
                                       .velocity = job->velocity,
+                                      .hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS),
+                                      .spin = mor_view_read(view, MOR_FIELD_SPIN_STRESS),
                                       .has_stress = mor_soil_corrects_gradient(soil),
                                       .powers = soil->energy->scratch};
     set_velocities(context, job, true);

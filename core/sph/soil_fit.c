@@ -39,7 +39,7 @@ mor_status mor_soil_fit_gradient(mor_context *context, void *owner, mor_view *vi
 {
     mor_soil *soil = owner;
     (void)step;
-    const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    const double *moments = mor_view_read(view, MOR_FIELD_MOMENTS);
     const mor_wall_clusters *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->wall_clusters);
     const mor_soil_fit_job job = {
         .n_particles = soil->set.n_particles,

@@ -170,6 +170,7 @@ mor_status mor_soil_sum_momentum(mor_context *context, void *owner, mor_view *vi
     }
     memcpy(soil->constants.rest_gradient, soil->pair_soils[0].rest_gradient, sizeof soil->constants.rest_gradient);
     mor_pair_arrays arrays = mor_soil_pair_arrays(soil, view, MOR_RESOURCE_LISTS);
+    arrays.extra = mor_view_read_shared(view, MOR_RESOURCE_FORCE_RECORDS, soil->extra);
     arrays.artificial_stress = mor_images_extend(
         context, &soil->images, mor_view_read(view, MOR_FIELD_ARTIFICIAL_STRESS), 6, soil->image_stress);
     const double *rate = soil->settings.scheme.reconstruction == 1 ? mor_view_read(view, MOR_FIELD_STRAIN_RATE) : NULL;
@@ -243,7 +244,7 @@ mor_status mor_soil_sum_gradient(mor_context *context, void *owner, mor_view *vi
     arrays.velocity_gradient = mor_view_write(view, MOR_FIELD_VELOCITY_GRADIENT);
     arrays.density_rate = mor_view_write(view, MOR_FIELD_DENSITY_RATE);
     arrays.hourglass_rate = mor_view_write(view, MOR_FIELD_HOURGLASS_RATE);
-    arrays.moments = mor_view_write_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    arrays.moments = mor_view_write(view, MOR_FIELD_MOMENTS);
     MOR_TRY(context, run_in_precision(context, soil, &arrays, soil->table->gradient, soil->table->mixed_gradient));
     mor_hold_stop(&soil->hold, arrays.hourglass_rate, 3);
     return MOR_OK;
@@ -365,7 +366,7 @@ mor_status mor_soil_advance_stress(mor_context *context, void *owner, mor_view *
         .diffusion = mor_view_read(view, MOR_FIELD_STRESS_DIFFUSION),
         .stress = mor_view_write(view, MOR_FIELD_STRESS),
         .separation = mor_view_write(view, MOR_FIELD_SEPARATION),
-        .moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments),
+        .moments = mor_view_read(view, MOR_FIELD_MOMENTS),
         .dimension = soil->settings.dimension,
         .spread = mor_stress_find_spread(soil->lattice_sum, soil->constants.kernel_normalization *
                                                                 pow(soil->settings.spacing, soil->settings.dimension)),

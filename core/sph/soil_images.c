@@ -43,7 +43,7 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
 {
     mor_images *images = &soil->images;
     const mor_images_array arrays[] = {{&soil->records, MOR_RECORD_SIZE}, {&soil->of_soil, MOR_PAIR_OF_SOIL_SIZE},
-                                       {&soil->extra, MOR_EXTRA_SIZE},    {&soil->field_records, MOR_PAIR_FIELD_SIZE},
+                                       {&soil->extra, soil->extra_width}, {&soil->field_records, MOR_PAIR_FIELD_SIZE},
                                        {&soil->image_stress, 6},          {&soil->image_strains, 6}};
     *points = (mor_relation_points){&soil->tree, position, 3};
     if (!mor_images_are_used(images)) {
@@ -52,6 +52,7 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
     }
     MOR_TRY(context, mor_images_find(context, images, position, soil->set.n_particles, 3, NULL, reach));
     MOR_TRY(context, mor_images_make_room(context, images, &soil->image_room, arrays, 6));
+    mor_soil_place_late(context, soil);
     points->records = images->places;
     mor_tree_fit(&soil->tree, points->records, 3);
     const mor_relation_points targets = mor_images_targets(images);

@@ -238,6 +238,9 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
 /** Gives images the records of their owners, and what the momentum loop reads beside them. */
 void mor_soil_follow_records(mor_context *context, const mor_soil *soil);
 
+/** Has what is found late in a step in the memory of the records of forces, where it is shared; whenever that moves. */
+void mor_soil_place_late(mor_context *context, mor_soil *soil);
+
 /** What all pair loops need, without fields; borrowed until the next resize or permute.
  *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */
 mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int lists);

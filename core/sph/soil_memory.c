@@ -69,7 +69,8 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
     const int64_t n = soil->set.n_particles;
     const mor_soil_memory_kind none = {0};
     double *closed = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, soil->closed);
-    const double *records = mor_view_write_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    const double *records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records);
+    double *extra = mor_view_write_shared(view, MOR_RESOURCE_FORCE_RECORDS, soil->extra);
     const double *stress = mor_view_read(view, MOR_FIELD_STRESS);
     double *spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS);
     memset(closed, 0, (size_t)(6 * n) * sizeof *closed);
@@ -85,7 +86,7 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
                                       .left = mor_view_read(view, MOR_FIELD_HOURGLASS_MOMENT),
                                       .spin = spin});
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
-        mor_pair_pack_shears(stress + 6 * i, spin + 3 * i, soil->extra + i * MOR_EXTRA_SIZE);
+        mor_pair_pack_shears(stress + 6 * i, spin + 3 * i, extra + i * MOR_EXTRA_SIZE);
     }
     mor_soil_follow_records(context, soil);
     return MOR_OK;
@@ -94,7 +95,7 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
 /* Moments over the soil and over walls; those of clusters that list none, or sleep, are not copied. */
 static const double *close_moments(mor_context *context, mor_soil *soil, mor_view *view)
 {
-    const double *moments = mor_view_read_shared(view, MOR_RESOURCE_MOMENTS, soil->moments);
+    const double *moments = mor_view_read(view, MOR_FIELD_MOMENTS);
     const mor_wall_clusters *at = mor_view_write_shared(view, MOR_RESOURCE_CLOSED, &soil->wall_clusters);
     mor_soil_copy_moments(context, soil, moments, at);
     add_walls(context, soil, view, at->places, at->closed);
@@ -135,7 +136,7 @@ mor_status mor_soil_remember(mor_context *context, void *owner, mor_view *view, 
         kinds[k] = memory_of(soil, k, step->length);
     }
     if (mor_soil_has_last_spin(soil)) {
-        job.moments = soil->moments;
+        job.moments = mor_view_read(view, MOR_FIELD_MOMENTS);
         job.closed = close_moments(context, soil, view);
         job.left = mor_view_read(view, MOR_FIELD_HOURGLASS_MOMENT);
         job.spin = mor_view_write(view, MOR_FIELD_SPIN_STRESS);

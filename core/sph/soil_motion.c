@@ -19,7 +19,6 @@ mor_pair_arrays mor_soil_pair_arrays(const mor_soil *soil, mor_view *view, int l
     mor_view_compare(view, lists, soil->inner.generation);
     return (mor_pair_arrays){.n_particles = soil->set.n_particles,
                              .records = mor_view_read_shared(view, MOR_RESOURCE_RECORDS, soil->records),
-                             .extra = soil->extra,
                              .of_soil = soil->of_soil,
                              .one_soil = soil->one_soil,
                              .asleep = soil->sleep.states,
@@ -92,9 +91,10 @@ static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view, con
                                     .mean = mor_soil_diffuses(soil, step) ? mor_view_read(view, MOR_FIELD_MEAN_STRESS)
                                                                           : NULL,
                                     .flow = mor_view_read(view, MOR_FIELD_FLOW),
-                                    .changing = soil->sleep.changing};
-    mor_pair_pack_extra(context, &job, soil->extra);
-    mor_pair_repeat_last(soil->extra, MOR_EXTRA_SIZE, job.n_particles);
+                                    .changing = soil->settings.shares_memory ? NULL : soil->sleep.changing};
+    double *extra = mor_view_write_shared(view, MOR_RESOURCE_FORCE_RECORDS, soil->extra);
+    mor_pair_pack_extra(context, &job, extra);
+    mor_pair_repeat_last(extra, MOR_EXTRA_SIZE, job.n_particles);
 }
 
 static mor_status pack_run(const packing *p, int64_t first, int64_t last)

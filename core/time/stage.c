@@ -84,3 +84,20 @@ mor_status mor_stage_verify(mor_context *context, const mor_stage *stages, int n
     }
     return MOR_OK;
 }
+
+mor_status mor_stage_verify_shared(mor_context *context, const mor_stage *stages, int n_stages, uint64_t earlier,
+                                   uint64_t later, const mor_set *set)
+{
+    bool is_late = false;
+    for (int s = 0; s < n_stages; ++s) {
+        char names[256];
+        const uint64_t touched = stages[s].reads | stages[s].writes | stages[s].accumulates;
+        is_late = is_late || (touched & later) != 0;
+        mor_stage_list_bits(set, touched & earlier, ", ", names, sizeof names);
+        MOR_CHECK(context, !is_late || (touched & earlier) == 0, MOR_ERROR_INTERNAL,
+                  "stage '%s' needs %s, whose memory holds what is found later in the step by then; give that memory "
+                  "of its own",
+                  stages[s].name, names);
+    }
+    return MOR_OK;
+}

@@ -22,12 +22,12 @@
 #define MOR_RESOURCE_LIST(X)                                                                                           \
     X(STATE, "material state")                                                                                         \
     X(RECORDS, "records")               /* packed neighbor records */                                                  \
+    X(FORCE_RECORDS, "force records")   /* what forces read beside them */                                             \
     X(LISTS, "lists")                   /* neighbor lists */                                                           \
     X(SHORT_LISTS, "short lists")       /* what of the lists is in reach in this step; copies for single precision */  \
     X(BOUNDARIES, "boundaries")         /* points of walls and rocks */                                                \
     X(WALL_SUMS, "wall sums")           /* kernel sums over walls and rocks */                                         \
     X(WALL_FORCES, "wall forces")       /* forces between soil and walls or rocks, and where they stick */             \
-    X(MOMENTS, "moments")               /* moments of the kernel gradient */                                           \
     X(CLOSED, "closed moments")         /* of the kernel gradient over soil and boundaries */                          \
     X(REGULARIZATION, "regularization") /* sums of XSPH and shifting */                                                \
     X(ENERGY_SUMS, "energy sums")       /* what the audit of energy carries from stage to stage */                     \
@@ -107,5 +107,16 @@ void mor_stage_list_writers(const mor_stage *stages, int n_stages, int bit, char
  *  Returns: MOR_OK; MOR_ERROR_INTERNAL naming stage and field. */
 mor_status mor_stage_verify(mor_context *context, const mor_stage *stages, int n_stages, uint64_t evolving,
                             const mor_set *set);
+
+/** Checks that data in one memory are not needed at the same time: no stage has to do with the earlier ones once one had
+ *  to do with the later ones.
+ *  @param stages   [in]      shape [n_stages]; in order of execution
+ *  @param n_stages [in]      number of stages
+ *  @param earlier  [in]      bits of data that are needed early in a step
+ *  @param later    [in]      bits of data that are needed late in it
+ *  @param set      [in]      whose fields the bits stand for; NULL: the built-in ones
+ *  Returns: MOR_OK; MOR_ERROR_INTERNAL naming the stage. */
+mor_status mor_stage_verify_shared(mor_context *context, const mor_stage *stages, int n_stages, uint64_t earlier,
+                                   uint64_t later, const mor_set *set);
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef MOR_CORE_SPH_PAIR_PAIR_AUDIT_H
 #define MOR_CORE_SPH_PAIR_PAIR_AUDIT_H
 
+#include "core/particle/images.h"
 #include "core/sph/pair/pair.h"
 
 /** @file
@@ -20,13 +21,17 @@ enum {
 };
 
 /** One audit; borrowed. What constants say of artificial stress, hourglass control and spin is found; the records have
- *  the velocities that the momentum loop saw. Of arrays all that momentum reads is read, and nothing is written. */
+ *  the velocities that the momentum loop saw. Of arrays all that momentum reads is read but for extra, and nothing is
+ *  written. */
 typedef struct mor_pair_audit_job {
     const mor_pair_constants *constants;
     const mor_pair_arrays *arrays;
-    const double *velocity; /* shape [n, 3]; at the end of the kick, m/s */
-    bool has_stress;        /* whether the forces of the symmetric stresses are found */
-    double *powers;         /* shape [n, MOR_PAIR_POWERS]; units of the enum */
+    const mor_images *images; /* whose entries lists hold; zeroed: none */
+    const double *velocity;   /* shape [n, 3]; at the end of the kick, m/s */
+    const double *hourglass;  /* shape [n padded to 8, 3]; displacement that hourglass control sees, m; with that */
+    const double *spin;       /* shape [n padded to 8, 3]; axial vector of the skew stress, Pa; with spin */
+    bool has_stress;          /* whether the forces of the symmetric stresses are found */
+    double *powers;           /* shape [n, MOR_PAIR_POWERS]; units of the enum */
 } mor_pair_audit_job;
 
 /** Finds the powers of the particles of clusters [first, last). */

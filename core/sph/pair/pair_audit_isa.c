@@ -151,15 +151,14 @@ INLINE vec stiffness_over(const audit_part *part, const mor_pair_audit_job *job,
 
 INLINE void add_hourglass(audit_part *part, const audit_chunk *it, const audit_form form)
 {
-    const mor_pair_arrays *arrays = it->job->arrays;
     const vec *u = part->middle;
     vec d[3];
     vec sum = part->powers[MOR_PAIR_POWER_HOURGLASS];
     for (int a = 0; a < 3; ++a) {
-        d[a] = load(arrays->extra + part->first * MOR_EXTRA_SIZE, MOR_EXTRA_SIZE, MOR_EXTRA_HOURGLASS + a);
+        d[a] = load(it->job->hourglass + 3 * part->first, 3, a);
     }
     for (int q = 0; q < it->n; ++q) {
-        const double *other = extra_of(arrays, it->near[q]) + MOR_EXTRA_HOURGLASS;
+        const double *other = it->job->hourglass + 3 * mor_images_owner(it->job->images, it->near[q]);
         vec work = multiply_add(d[0] - other[0], u[0], (d[1] - other[1]) * u[1]);
         work = form.dimension == 3 ? multiply_add(d[2] - other[2], u[2], work) : work;
         const vec k = form.several ? it->found->k[q] * stiffness_over(part, it->job, it->near[q]) : it->found->k[q];
@@ -175,7 +174,7 @@ INLINE void find_tensor(const mor_pair_audit_job *job, int64_t j, double *t)
     const double part = job->has_stress ? 1.0 : 0.0;
     double skew[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < 3 && job->constants->has_spin; ++a) {
-        skew[a] = job->arrays->extra[j * MOR_EXTRA_SIZE + MOR_EXTRA_LOWER + a] - s[MOR_XY + a];
+        skew[a] = job->spin[3 * mor_images_owner(job->images, j) + (a + 2) % 3];
     }
     t[XX] = part * s[MOR_XX];
     t[YY] = part * s[MOR_YY];

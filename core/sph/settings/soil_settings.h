@@ -40,6 +40,8 @@ typedef struct mor_soil_settings {
     int n_regions; /* parts that the state variable MOR_COMPOSITE_INDEX_KEY tells apart, whether or not their
                       materials differ; of a composite the number of its parts; 0 or 1: one */
     double released[MOR_HOLD_REGIONS_MAX]; /* shape [regions]; time until which each stands as placed, s; 0: none */
+    bool shares_memory; /* what is found late in a step lies where something is that is needed early in it; not for
+                           checked runs, which look at all of it around each stage */
 } mor_soil_settings;
 
 /** Sums over the lattice the soil starts from.

@@ -361,6 +361,7 @@ static mor_status build_soil_with(mor_context *context, mor_simulation *simulati
     if (status == MOR_OK) {
         set_settings(simulation, kinds, &settings);
         settings.guard = find_guard(context, simulation);
+        settings.shares_memory = !context->is_checked;
         status = mor_soil_init(context, &simulation->soil, "soil", &settings, simulation->material, n_particles);
         status = place_refusal(context, &c->soils[context->item >= 0 && context->item < c->n_soils ? context->item : 0],
                                status);

@@ -22,21 +22,26 @@ static void find_velocities(const assembly *a, double *velocity)
 static void run_audit(const assembly *a, const char *name, bool has_stress, double *powers)
 {
     double velocity[3 * ASSEMBLY_MAX];
-    double extra[MOR_EXTRA_SIZE * ASSEMBLY_MAX];
+    double hourglass[3 * ASSEMBLY_MAX];
+    const mor_images none = {0};
     const bool has_two_soils = a->constants.soils != NULL;
     find_velocities(a, velocity);
-    assembly_pack_extra(a, extra);
+    for (int i = 0; i < ASSEMBLY_MAX; ++i) {
+        memcpy(hourglass + 3 * i, a->extra + MOR_EXTRA_SIZE * i + MOR_EXTRA_HOURGLASS, 3 * sizeof *hourglass);
+    }
     const mor_pair_arrays arrays = {.n_particles = a->n,
                                     .records = a->records,
                                     .inner = &a->relation,
                                     .artificial_stress = a->artificial,
-                                    .extra = extra,
                                     .of_soil = has_two_soils ? a->of_soil : NULL,
                                     .one_soil = has_two_soils ? a->one_soil : NULL,
                                     .strain_rate = a->has_reconstruction ? a->strain_rate : NULL};
     const mor_pair_audit_job job = {.constants = &a->constants,
                                     .arrays = &arrays,
+                                    .images = &none,
                                     .velocity = velocity,
+                                    .hourglass = hourglass,
+                                    .spin = a->spin,
                                     .has_stress = has_stress,
                                     .powers = powers};
     for (int k = 0; k < POWERS; ++k) {
