@@ -61,8 +61,8 @@ int mor_set_width(const mor_set *set, uint64_t fields);
  *  needed. What they held is lost.
  *  @param set    [in,out]  those of the fields that it has
  *  @param fields [in]      bit of each
- *  @param memory [in,out]  shape [n_created padded to 8, mor_set_width]; borrowed until they are placed again or the
- *                          set is cleared */
+ *  @param memory [in,out]  shape [n_created padded to 8, mor_set_width], unit of each field; borrowed until they
+ *                          are placed again or the set is cleared */
 void mor_set_place(mor_context *context, mor_set *set, uint64_t fields, double *memory);
 
 /** Returns the index of a field by name, or -1.

@@ -72,9 +72,6 @@ static bool has_audit(const void *owner)
 #define GAPS (BIT(GAP) | BIT(GAP_FACE) | BIT(FACE_GROWTH))
 #define CALM (BIT(QUIET) | BIT(QUIET_PLACE) | BIT(QUIET_STRESS) | BIT(QUIET_SPAN))
 
-/* Found late in a step, when the records of forces are not needed any more. */
-#define LATE (BIT(VELOCITY_GRADIENT) | BIT(HOURGLASS_RATE) | BIT(MOMENTS))
-
 #define OR_BIT(name) | BIT(name)
 #define STANDING (0 MOR_SOIL_STANDING(OR_BIT))
 
@@ -103,7 +100,7 @@ static const mor_stage soil_stages[] = {
      "against tensile instability, where soil flows with transient stress diffusion, when switched on",
      has_artificial_stress},
     {"present skew stress", mor_soil_find_present_spin,
-     SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), SHARED(CLOSED),
+     SHARED(RECORDS) | SHARED(LISTS) | SHARED(WALL_SUMS) | BIT(HOURGLASS_MOMENT) | BIT(STRESS), SHARED(CLOSED),
      BIT(SPIN_STRESS) | SHARED(FORCE_RECORDS),
      "with which the forces of the soil have no moment, found in this step, when switched on", has_present_spin},
     {"momentum", mor_soil_sum_momentum,
@@ -262,24 +259,19 @@ static mor_status set_kinds(mor_context *context, mor_soil *soil)
     return MOR_OK;
 }
 
-void mor_soil_place_late(mor_context *context, mor_soil *soil)
-{
-    if (soil->settings.shares_memory && soil->extra != NULL) {
-        mor_set_place(context, &soil->set, LATE, soil->extra);
-    }
-}
-
 /* Makes room for the records of forces, and has what is found later in a step in it where memory is shared. */
 static mor_status allocate_extra(mor_context *context, mor_soil *soil, int64_t padded)
 {
     if (!has_angular_momentum(soil) && !has_hourglass(soil) && !has_mean_stress(soil)) {
         return MOR_OK;
     }
-    const int width = soil->settings.shares_memory ? mor_set_width(&soil->set, LATE) : 0;
+    MOR_CHECK(context, !soil->settings.shares_memory || !context->is_checked, MOR_ERROR_INTERNAL,
+              "soil '%s' shares memory in a checked run, which looks at all of it around each stage", soil->set.name);
+    const int width = soil->settings.shares_memory ? mor_set_width(&soil->set, MOR_SOIL_LATE) : 0;
     soil->extra_width = width > MOR_EXTRA_SIZE ? width : MOR_EXTRA_SIZE;
     MOR_TRY(context, MOR_NEW(context, &soil->extra, padded * soil->extra_width, "neighbor records"));
     mor_soil_place_late(context, soil);
-    return mor_stage_verify_shared(context, soil_stages, N_STAGES, SHARED(FORCE_RECORDS), LATE, &soil->set);
+    return mor_stage_verify_shared(context, soil_stages, N_STAGES, SHARED(FORCE_RECORDS), MOR_SOIL_LATE, &soil->set);
 }
 
 static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_particles)

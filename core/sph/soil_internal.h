@@ -207,9 +207,10 @@ double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
     FIELD(DENSITY)                                                                                                     \
     FIELD(DENSITY_RATE)                                                                                                \
     FIELD(STRESS)                                                                                                      \
-    FIELD(STRAIN_RATE) FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS)      \
-        FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE)                \
-            FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
+    FIELD(STRAIN_RATE)                                                                                                 \
+    FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION)       \
+        FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS)              \
+            FIELD(QUIET_SPAN)
 
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)
@@ -238,8 +239,17 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
 /** Gives images the records of their owners, and what the momentum loop reads beside them. */
 void mor_soil_follow_records(mor_context *context, const mor_soil *soil);
 
-/** Has what is found late in a step in the memory of the records of forces, where it is shared; whenever that moves. */
-void mor_soil_place_late(mor_context *context, mor_soil *soil);
+/* Found late in a step, when the records of forces are not needed any more. */
+#define MOR_SOIL_LATE                                                                                                  \
+    (MOR_BIT(MOR_FIELD_VELOCITY_GRADIENT) | MOR_BIT(MOR_FIELD_HOURGLASS_RATE) | MOR_BIT(MOR_FIELD_MOMENTS))
+
+/** Has it in the memory of those where that is shared; whenever they have moved. */
+static inline void mor_soil_place_late(mor_context *context, mor_soil *soil)
+{
+    if (soil->settings.shares_memory && soil->extra != NULL) {
+        mor_set_place(context, &soil->set, MOR_SOIL_LATE, soil->extra);
+    }
+}
 
 /** What all pair loops need, without fields; borrowed until the next resize or permute.
  *  @param lists [in]  MOR_RESOURCE_LISTS or MOR_RESOURCE_SHORT_LISTS, which the loop reads */

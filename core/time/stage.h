@@ -108,8 +108,8 @@ void mor_stage_list_writers(const mor_stage *stages, int n_stages, int bit, char
 mor_status mor_stage_verify(mor_context *context, const mor_stage *stages, int n_stages, uint64_t evolving,
                             const mor_set *set);
 
-/** Checks that data in one memory are not needed at the same time: no stage has to do with the earlier ones once one had
- *  to do with the later ones.
+/** Checks that data in one memory are not needed at the same time: no stage has to do with the earlier ones once one
+ *  had to do with the later ones.
  *  @param stages   [in]      shape [n_stages]; in order of execution
  *  @param n_stages [in]      number of stages
  *  @param earlier  [in]      bits of data that are needed early in a step

@@ -99,19 +99,27 @@ static inline void scene_read(scene *it, const scene_request *request)
     free(text);
 }
 
-/** Builds a scene that has not settled; one object, owned by the caller. */
-static inline scene *scene_build(const scene_request *request)
+/** Builds a scene that has not settled, checked in any build where that is asked for; one object, owned by the
+ *  caller. */
+static inline scene *scene_build_checked(const scene_request *request, bool is_checked)
 {
     scene *it = calloc(1, sizeof *it);
     assert_non_null(it);
     mor_context_init(&it->context);
     it->context.n_threads = request->n_threads > 0 ? request->n_threads : 1;
+    it->context.is_checked = it->context.is_checked || is_checked;
     scene_require(it, mor_registry_new(&it->context, &it->registry));
     scene_require(it, mor_registry_add_list(&it->context, it->registry, mor_materials_builtin(NULL)));
     scene_read(it, request);
     scene_require(it, mor_simulation_init(&it->context, &it->simulation, &it->the_case, it->registry));
     scene_require(it, MOR_NEW(&it->context, &it->place, it->simulation.soil.set.n_particles, "places of particles"));
     return it;
+}
+
+/** The same, checked in the checked build alone. */
+static inline scene *scene_build(const scene_request *request)
+{
+    return scene_build_checked(request, false);
 }
 
 /** Builds a scene and lets it settle where its case asks for that; one object, owned by the caller. */

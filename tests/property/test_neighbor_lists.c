@@ -25,9 +25,7 @@ static scene *open_checked(void)
 {
     static const char *const nothing[] = {NULL};
     const scene_request request = {column, (const char *const *[]){nothing}, 1, 1};
-    scene *it = scene_new(&request);
-    it->context.is_checked = true;
-    return it;
+    return scene_build_checked(&request, true);
 }
 
 /* A cluster is looked at in each step: all of them once and more while soil flows onto the disc. */

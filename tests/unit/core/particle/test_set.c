@@ -175,6 +175,34 @@ static void permute_goes_from_the_old_place_to_the_new(void **state)
     close_set(&context, &set);
 }
 
+/* Velocity gradients lie over records that are not needed any more, and nothing of the rest moves. */
+static void scratch_that_is_placed_lies_in_the_memory_given(void **state)
+{
+    (void)state;
+    enum { ROWS = 40, WIDTH = 9 + 6 };
+    mor_context context;
+    mor_set set;
+    static double memory[ROWS * WIDTH];
+    static double other[ROWS * WIDTH];
+    open_set(&context, &set);
+    const uint64_t late = (uint64_t)1 << MOR_FIELD_VELOCITY_GRADIENT | (uint64_t)1 << MOR_FIELD_MOMENTS;
+    const uint64_t checksum = mor_set_checksum(&set);
+    assert_int_equal(mor_set_width(&set, late), WIDTH);
+    const size_t n_bytes = context.memory_bytes;
+    mor_set_place(&context, &set, late, memory);
+    assert_true(n_bytes - context.memory_bytes >= N * WIDTH * sizeof(double)); /* they had room of their own */
+    assert_ptr_equal(set.data[MOR_FIELD_VELOCITY_GRADIENT], memory);
+    assert_ptr_equal(set.data[MOR_FIELD_MOMENTS], memory + ROWS * 9);
+    mor_set_place(&context, &set, late, other); /* it has moved */
+    assert_ptr_equal(set.data[MOR_FIELD_MOMENTS], other + ROWS * 9);
+    assert_true(mor_set_checksum(&set) == checksum); /* scratch is no part of it */
+    mor_set_remove(&set, (const int32_t[]){3, N - 1}, 2);
+    mor_set_place(&context, &set, late, memory);
+    assert_ptr_equal(set.data[MOR_FIELD_MOMENTS], memory + ROWS * 9); /* for as many as there were */
+    close_set(&context, &set);
+    assert_int_equal(mor_set_width(&set, late), 0);
+}
+
 static void removed_particles_leave_the_others_in_order(void **state)
 {
     static const int32_t removed[] = {0, 1, 5, 17, N - 1};
@@ -370,6 +398,7 @@ int main(void)
         cmocka_unit_test(particles_that_are_stopped_keep_all_but_their_motion),
         cmocka_unit_test(permute_moves_every_evolving_field_with_its_particle),
         cmocka_unit_test(permute_goes_from_the_old_place_to_the_new),
+        cmocka_unit_test(scratch_that_is_placed_lies_in_the_memory_given),
         cmocka_unit_test(removed_particles_leave_the_others_in_order),
         cmocka_unit_test(checksum_does_not_depend_on_the_order_of_particles),
         cmocka_unit_test(checksum_sees_each_bit_of_evolving_fields_and_no_other),

@@ -91,6 +91,26 @@ static void shared_data_is_checked_like_fields(void **state)
     assert_in_range(MOR_RESOURCE_RECORDS, MOR_FIELDS_MAX, 63); /* no field of a material shares a bit with them */
 }
 
+static void data_in_one_memory_may_not_be_needed_at_once(void **state)
+{
+    (void)state;
+    mor_context context;
+    mor_context_init(&context);
+    const mor_stage stages[] = {
+        {"pack", NULL, POSITION | VELOCITY, RECORDS, 0, "records", NULL},
+        {"momentum", NULL, RECORDS, VELOCITY, 0, "velocities", NULL},
+        {"drift", NULL, VELOCITY, ACCELERATION, 0, "what is found late", NULL},
+        {"use", NULL, ACCELERATION, 0, POSITION, "and is needed to the end", NULL},
+        {"audit", NULL, RECORDS, 0, 0, "records that are not there any more", NULL},
+    };
+    assert_int_equal(mor_stage_verify_shared(&context, stages, 4, RECORDS, ACCELERATION, NULL), MOR_OK);
+    assert_int_equal(mor_stage_verify_shared(&context, stages, 5, RECORDS, POSITION, NULL), MOR_ERROR_INTERNAL);
+    assert_non_null(strstr(context.message, "stage 'pack' needs (records)"));
+    mor_context_init(&context);
+    assert_int_equal(mor_stage_verify_shared(&context, stages, 5, RECORDS, ACCELERATION, NULL), MOR_ERROR_INTERNAL);
+    assert_non_null(strstr(context.message, "stage 'audit' needs (records), whose memory holds"));
+}
+
 static void soil_can_do_without_no_stage_that_writes(void **state)
 {
     (void)state;
@@ -131,6 +151,7 @@ int main(void)
         cmocka_unit_test(adding_to_scratch_before_it_is_written_is_refused),
         cmocka_unit_test(stage_may_not_read_what_only_it_writes),
         cmocka_unit_test(shared_data_is_checked_like_fields),
+        cmocka_unit_test(data_in_one_memory_may_not_be_needed_at_once),
         cmocka_unit_test(soil_can_do_without_no_stage_that_writes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
