@@ -282,7 +282,6 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
-    MOR_TRY(context, mor_soil_allocate_places(context, soil));
     MOR_TRY(context, mor_wall_clusters_init(context, &soil->wall_clusters, soil->tree.n_clusters));
     soil->wall_clusters.has_continued = has_fit(soil);
     soil->wall_clusters.has_closed = has_fit(soil) || mor_soil_has_last_spin(soil);
@@ -297,6 +296,7 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
         MOR_TRY(context, MOR_NEW(context, &soil->closed, padded * 6, "closed kernel-gradient moments"));
     }
     MOR_TRY(context, allocate_extra(context, soil, padded));
+    MOR_TRY(context, mor_soil_allocate_places(context, soil));
     if (mor_soil_has_density_sums(soil)) {
         MOR_TRY(context, MOR_NEW(context, &soil->density_sums, n_particles, "densities by summation"));
     }
@@ -494,7 +494,7 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
     const double n = (double)soil->set.n_particles;
     const double padded = (double)(soil->tree.n_clusters * MOR_CLUSTER);
     double bytes = n * (sizeof *soil->set.id + sizeof *soil->order) + padded * MOR_RECORD_SIZE * sizeof(double);
-    bytes += (6.0 * n + 36.0 * (double)soil->tree.n_clusters) * sizeof(double);
+    bytes += (6.0 * n + (soil->ranges != NULL ? 36.0 : 24.0) * (double)soil->tree.n_clusters) * sizeof(double);
     for (int field = 0; field < soil->set.n_fields; ++field) {
         const bool is_own = soil->set.data[field] != NULL && (soil->set.borrowed >> field & 1u) == 0;
         bytes += is_own ? n * soil->set.fields[field].n_components * (double)sizeof(double) : 0.0;

@@ -108,20 +108,20 @@ typedef struct mor_soil {
     int n_walls;
     mor_soil_contact boundaries[MOR_SOIL_BOUNDARIES_MAX]; /* moved by others */
     int n_boundaries;
-    mor_soil_watch watch;                       /* of these and of what leaves; the owner is borrowed */
-    double sound_speed;                         /* c0, m/s; the largest of several soils */
-    double smoothing_length;                    /* h, m */
-    double lattice_moment;                      /* moment of the kernel gradient on it, 1 */
-    double lattice_sum;                         /* sum V W on the perfect lattice, 1 */
-    double largest_speed;                       /* after the last kick, m/s */
-    double largest_acceleration;                /* in the last step, m/s2 */
-    bool is_relaxing;                           /* it is brought to rest: what moves is no flow */
-    mor_skin_places list_places;                /* of particles when the lists of particles were built */
-    mor_skin_places boundary_places;            /* when those of walls and rocks were; with a tree of its own */
-    mor_tree boundary_tree;                     /* of the particles then */
-    double *ranges;                             /* shape [2 * clusters - 1, 6]; scratch, see core/particle/skin.h, m */
-    bool has_outflow;                           /* in this step, whose end removes them */
-    int64_t n_outflow;                          /* particles that have left the domain since the start */
+    mor_soil_watch watch;            /* of these and of what leaves; the owner is borrowed */
+    double sound_speed;              /* c0, m/s; the largest of several soils */
+    double smoothing_length;         /* h, m */
+    double lattice_moment;           /* moment of the kernel gradient on it, 1 */
+    double lattice_sum;              /* sum V W on the perfect lattice, 1 */
+    double largest_speed;            /* after the last kick, m/s */
+    double largest_acceleration;     /* in the last step, m/s2 */
+    bool is_relaxing;                /* it is brought to rest: what moves is no flow */
+    mor_skin_places list_places;     /* of particles when the lists of particles were built */
+    mor_skin_places boundary_places; /* when those of walls and rocks were; with a tree of its own */
+    mor_tree boundary_tree;          /* of the particles then */
+    double *ranges;    /* shape [2 * clusters - 1, 6]; scratch, see core/particle/skin.h, m; NULL: in extra */
+    bool has_outflow;  /* in this step, whose end removes them */
+    int64_t n_outflow; /* particles that have left the domain since the start */
     double outflow[MOR_SOIL_OUTFLOW_STATE];     /* of those, units of the enum above */
     bool has_lists;                             /* lists exist and belong to the present order */
     bool has_boundary_lists;                    /* likewise those of walls and rocks */

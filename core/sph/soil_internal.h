@@ -208,9 +208,9 @@ double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
     FIELD(DENSITY_RATE)                                                                                                \
     FIELD(STRESS)                                                                                                      \
     FIELD(STRAIN_RATE)                                                                                                 \
-    FIELD(MEAN_STRESS) FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION)       \
-        FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS)              \
-            FIELD(QUIET_SPAN)
+    FIELD(MEAN_STRESS)                                                                                                 \
+    FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP)               \
+        FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
 
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)
@@ -243,11 +243,19 @@ void mor_soil_follow_records(mor_context *context, const mor_soil *soil);
 #define MOR_SOIL_LATE                                                                                                  \
     (MOR_BIT(MOR_FIELD_VELOCITY_GRADIENT) | MOR_BIT(MOR_FIELD_HOURGLASS_RATE) | MOR_BIT(MOR_FIELD_MOMENTS))
 
-/** Has it in the memory of those where that is shared; whenever they have moved. */
+/** Returns whether other data lie where records of forces are while these are not needed. */
+static inline bool mor_soil_shares(const mor_soil *soil)
+{
+    return soil->settings.shares_memory && soil->extra != NULL;
+}
+
+/** Has them there, whenever the records of forces have moved: what is found late, and the ranges of displacements,
+ *  which the neighbor search needs before the records are packed. */
 static inline void mor_soil_place_late(mor_context *context, mor_soil *soil)
 {
-    if (soil->settings.shares_memory && soil->extra != NULL) {
+    if (mor_soil_shares(soil)) {
         mor_set_place(context, &soil->set, MOR_SOIL_LATE, soil->extra);
+        soil->list_places.ranges = soil->boundary_places.ranges = soil->extra;
     }
 }
 

@@ -49,9 +49,12 @@ static void pack_soils(mor_context *context, const mor_soil *soil, const double 
 mor_status mor_soil_allocate_places(mor_context *context, mor_soil *soil)
 {
     MOR_TRY(context, mor_tree_init(context, &soil->boundary_tree, soil->tree.n_points));
-    MOR_TRY(context, MOR_NEW(context, &soil->ranges, 6 * (2 * soil->tree.n_clusters - 1), "displacements"));
-    MOR_TRY(context, mor_skin_places_init(context, &soil->list_places, &soil->tree, soil->ranges));
-    return mor_skin_places_init(context, &soil->boundary_places, &soil->boundary_tree, soil->ranges);
+    const bool is_shared = mor_soil_shares(soil);
+    MOR_TRY(context,
+            MOR_NEW(context, &soil->ranges, is_shared ? 0 : 6 * (2 * soil->tree.n_clusters - 1), "displacements"));
+    double *ranges = is_shared ? soil->extra : soil->ranges;
+    MOR_TRY(context, mor_skin_places_init(context, &soil->list_places, &soil->tree, ranges));
+    return mor_skin_places_init(context, &soil->boundary_places, &soil->boundary_tree, ranges);
 }
 
 static mor_status build_lists(mor_context *context, mor_soil *soil, mor_view *view, mor_relation_points *points)
