@@ -33,10 +33,21 @@ mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_c
     if (status == MOR_OK) {
         status = MOR_NEW(context, &relation->capacities, relation->n_buffers, "neighbor buffer sizes");
     }
+    relation->sizes = relation->counts;
     if (status != MOR_OK) {
         mor_relation_clear(context, relation);
     }
     return status;
+}
+
+mor_status mor_relation_use_runs(mor_context *context, mor_relation *relation)
+{
+    MOR_CHECK(context, relation->n_builds == 0 && relation->sizes == relation->counts, MOR_ERROR_INTERNAL,
+              "found a relation that was built; runs are chosen before that");
+    int32_t *sizes = NULL;
+    MOR_TRY(context, MOR_NEW(context, &sizes, relation->n_clusters, "neighbor list sizes"));
+    relation->sizes = sizes;
+    return MOR_OK;
 }
 
 void mor_relation_clear(mor_context *context, mor_relation *relation)
@@ -47,6 +58,9 @@ void mor_relation_clear(mor_context *context, mor_relation *relation)
     MOR_FREE(context, &relation->buffers);
     MOR_FREE(context, &relation->capacities);
     MOR_FREE(context, &relation->occupied);
+    if (relation->sizes != relation->counts) {
+        MOR_FREE(context, &relation->sizes);
+    }
     MOR_FREE(context, &relation->counts);
     MOR_FREE(context, &relation->lists);
     memset(relation, 0, sizeof *relation);
@@ -123,8 +137,10 @@ mor_status mor_relation_build(mor_context *context, mor_relation *relation, cons
               (long long)source->tree->n_clusters);
     relation->reach = reach;
     relation->n_builds += 1;
+    relation->has_runs = relation->sizes != relation->counts && target->tree->n_clusters <= MOR_RUN_CLUSTERS;
     if (target->tree->n_clusters == 0) {
         memset(relation->counts, 0, (size_t)relation->n_clusters * sizeof *relation->counts);
+        memset(relation->sizes, 0, (size_t)relation->n_clusters * sizeof *relation->sizes);
     } else if (relation->n_clusters > 0) {
         bool has_grown = true;
         while (has_grown) {

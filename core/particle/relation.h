@@ -24,11 +24,13 @@ typedef struct mor_relation {
     mor_configuration configuration;
     double reach;        /* targets nearer than this to one of the eight are listed, m */
     int64_t n_clusters;  /* source clusters */
+    bool has_runs;       /* lists are runs, see mor_relation_use_runs, and not entries */
     int32_t **lists;     /* shape [n_clusters]; start of each cluster's list in one of the buffers */
     int32_t *counts;     /* shape [n_clusters]; entries in each list */
+    int32_t *sizes;      /* shape [n_clusters]; numbers in each list: its runs, or the same array as counts */
     int n_buffers;       /* one per thread */
     int32_t **buffers;   /* shape [n_buffers] of [capacities]; each list with its bits, see mor_relation_near */
-    int64_t *capacities; /* shape [n_buffers]; entries */
+    int64_t *capacities; /* shape [n_buffers]; numbers */
     int64_t n_entries;   /* entries in all lists */
     int64_t n_occupied;  /* clusters with a list that is not empty */
     int32_t *occupied;   /* shape [n_clusters]; those clusters, ascending */
@@ -52,7 +54,7 @@ static inline int32_t mor_relation_words(int32_t count)
  *  @param cluster  [in]  0 .. n_clusters - 1 */
 static inline uint32_t *mor_relation_near(const mor_relation *relation, int64_t cluster)
 {
-    return (uint32_t *)(relation->lists[cluster] + relation->counts[cluster]);
+    return (uint32_t *)(relation->lists[cluster] + relation->sizes[cluster]);
 }
 
 /** Sets the bits of a list, shape [mor_relation_words(count)]. */
@@ -77,6 +79,54 @@ void mor_relation_restore_near(const mor_relation *relation, int64_t first, int6
  *  Returns: MOR_OK; MOR_ERROR_MEMORY. Cost: allocates. */
 mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
                              int64_t n_clusters);
+
+/* A run: number of a target cluster in the upper bits, and below a bit for each of its points that is listed. */
+enum { MOR_RUN_BITS = MOR_CLUSTER, MOR_RUN_CLUSTERS = 1 << (32 - MOR_RUN_BITS) };
+
+/** Has lists kept as runs, one number for a target cluster in place of one for each of its points. They are read by a
+ *  cursor, or block by block, see relation_near.h. Images, whose lists are not ascending, are not sorted into runs.
+ *  Targets of more than MOR_RUN_CLUSTERS are kept as entries all the same.
+ *  @param relation [in,out]  not yet built
+ *  Returns: MOR_OK; MOR_ERROR_INTERNAL for one that was built; MOR_ERROR_MEMORY. Cost: allocates. */
+mor_status mor_relation_use_runs(mor_context *context, mor_relation *relation);
+
+/** A way through the entries of a list, one by one. */
+typedef struct mor_relation_cursor {
+    const int32_t *list; /* shape [left]; numbers that are ahead */
+    int32_t left;
+    bool has_runs;
+    uint32_t run;  /* points of the present run that are ahead, a bit for each */
+    int64_t first; /* first point of the cluster of that run */
+} mor_relation_cursor;
+
+/** Returns a cursor before the first entry.
+ *  @param relation [in]  built; outlives it
+ *  @param cluster  [in]  0 .. n_clusters - 1 */
+static inline mor_relation_cursor mor_relation_begin(const mor_relation *relation, int64_t cluster)
+{
+    return (mor_relation_cursor){relation->lists[cluster], relation->sizes[cluster], relation->has_runs, 0, 0};
+}
+
+/** Returns the next entry, an index of a target, or -1 at the end.
+ *  @param cursor [in,out]  goes on */
+static inline int64_t mor_relation_next(mor_relation_cursor *cursor)
+{
+    if (cursor->run == 0) {
+        if (cursor->left == 0) {
+            return -1;
+        }
+        cursor->left -= 1;
+        const uint32_t number = (uint32_t)*cursor->list++;
+        if (!cursor->has_runs) {
+            return number;
+        }
+        cursor->run = number & ((1U << MOR_RUN_BITS) - 1);
+        cursor->first = (int64_t)(number >> MOR_RUN_BITS) * MOR_CLUSTER;
+    }
+    const int lane = __builtin_ctz(cursor->run);
+    cursor->run &= cursor->run - 1;
+    return cursor->first + lane;
+}
 
 /** Frees what the relation owns; accepts a zeroed one. */
 void mor_relation_clear(mor_context *context, mor_relation *relation);

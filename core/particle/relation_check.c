@@ -19,14 +19,13 @@ mor_status mor_relation_check_cluster(mor_context *context, const mor_relation_c
     const int64_t n_source = check->source.tree->n_points;
     const int64_t first = cluster * MOR_CLUSTER;
     const int64_t last = first + MOR_CLUSTER < n_source ? first + MOR_CLUSTER : n_source;
-    const int32_t *list = check->relation->lists[cluster];
-    const int32_t count = check->relation->counts[cluster];
-    int32_t entry = 0;
+    mor_relation_cursor cursor = mor_relation_begin(check->relation, cluster);
+    int64_t entry = mor_relation_next(&cursor);
     for (int64_t j = 0; j < check->target.tree->n_points; ++j) {
-        while (entry < count && list[entry] < j) {
-            ++entry;
+        while (entry >= 0 && entry < j) {
+            entry = mor_relation_next(&cursor);
         }
-        const bool is_listed = entry < count && list[entry] == j;
+        const bool is_listed = entry == j;
         for (int64_t i = first; i < last && !is_listed; ++i) {
             const double distance = sqrt(squared_distance(check, i, j));
             if (distance < check->support) {

@@ -12,7 +12,7 @@
  *  @param buffer [in]  0 <= buffer < n_buffers
  *  @param first  [in]  first cluster of the range
  *  @param last   [in]  one past its last, >= first
- *  Returns: the entries it needs, those with bits included, whether or not they fit. */
+ *  Returns: the numbers it needs, bits included, whether or not they fit. */
 typedef int64_t (*mor_relation_list_loop)(mor_relation *relation, const mor_relation_points *source,
                                           const mor_relation_points *target, int buffer, int64_t first, int64_t last);
 

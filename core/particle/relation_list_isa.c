@@ -71,24 +71,47 @@ static inline int64_t is_seen(const lanes *eight, const double *point, double re
     return any != 0;
 }
 
-/* Appends the points of one target cluster that one of the eight sees; returns their number. Entries are written
- * before it is known whether they count, which spares a branch that nobody could predict. */
-static inline int64_t append_cluster(const lanes *eight, const mor_relation_points *target, int64_t cluster,
-                                     double reach2, int32_t *out, int64_t room)
+/* A list that is written as far as there is room, and counted to its end. */
+typedef struct list_writer {
+    int32_t *out; /* shape [room] */
+    int64_t room;
+    int64_t size;  /* numbers */
+    int64_t count; /* entries */
+} list_writer;
+
+/* Appends the points of one target cluster that one of the eight sees. Entries are written before it is known whether
+ * they count, which spares a branch that nobody could predict. */
+static inline void append_points(list_writer *list, const lanes *eight, const mor_relation_points *target,
+                                 int64_t begin, int64_t end, double reach2)
 {
-    const int64_t begin = cluster * MOR_CLUSTER;
-    const int64_t end = begin + MOR_CLUSTER < target->tree->n_points ? begin + MOR_CLUSTER : target->tree->n_points;
     int32_t spare[MOR_CLUSTER];
-    int32_t *place = room >= MOR_CLUSTER ? out : spare;
+    const int64_t room = list->room - list->size;
+    int32_t *place = room >= MOR_CLUSTER ? list->out + list->size : spare;
     int64_t count = 0;
     for (int64_t j = begin; j < end; ++j) {
         place[count] = (int32_t)j;
         count += is_seen(eight, target->records + j * target->stride, reach2);
     }
     if (place == spare && room > 0) {
-        memcpy(out, spare, (size_t)(count < room ? count : room) * sizeof *out);
+        memcpy(list->out + list->size, spare, (size_t)(count < room ? count : room) * sizeof *spare);
     }
-    return count;
+    list->size += count;
+    list->count += count;
+}
+
+/* Appends the same as one run. */
+static inline void append_run(list_writer *list, const lanes *eight, const mor_relation_points *target, int64_t begin,
+                              int64_t end, double reach2)
+{
+    uint32_t seen = 0;
+    for (int64_t j = begin; j < end; ++j) {
+        seen |= (uint32_t)is_seen(eight, target->records + j * target->stride, reach2) << (j - begin);
+    }
+    if (list->size < list->room) {
+        list->out[list->size] = (int32_t)((uint32_t)(begin / MOR_CLUSTER) << MOR_RUN_BITS | seen);
+    }
+    list->size += seen != 0;
+    list->count += __builtin_popcount(seen);
 }
 
 /* Target clusters near a group of source clusters. */
@@ -164,20 +187,23 @@ static inline void find_gaps(const double *box, candidates *found)
     }
 }
 
-/* Appends what a cluster sees of the candidates; returns the entries found, of which at most room were written. */
-static inline int64_t append_candidates(const lanes *eight, const mor_relation_points *target, candidates *found,
-                                        double reach2, int32_t *out, int64_t room)
+/* Appends what a cluster sees of the candidates. */
+static inline void append_candidates(list_writer *list, const lanes *eight, const mor_relation_points *target,
+                                     candidates *found, double reach2, bool has_runs)
 {
-    int64_t count = 0;
     find_gaps(eight->box, found);
     for (int k = 0; k < found->n; ++k) {
         if (0.25 * found->gap[k] < reach2) {
-            const int64_t written = count < room ? count : room;
-            count += append_cluster(eight, target, found->cluster[k], reach2, room > 0 ? out + written : out,
-                                    room - written);
+            const int64_t begin = (int64_t)found->cluster[k] * MOR_CLUSTER;
+            const int64_t last = begin + MOR_CLUSTER;
+            const int64_t end = last < target->tree->n_points ? last : target->tree->n_points;
+            if (has_runs) {
+                append_run(list, eight, target, begin, end, reach2);
+            } else {
+                append_points(list, eight, target, begin, end, reach2);
+            }
         }
     }
-    return count;
 }
 
 /* The box of a group of source clusters, at least one. */
@@ -195,7 +221,7 @@ static inline void bound_group(const mor_relation_points *source, int64_t first,
     }
 }
 
-/* Lists the clusters [first, last) into one buffer; returns the entries it needs, whether or not they fit. Neighboring
+/* Lists the clusters [first, last) into one buffer; returns the numbers it needs, whether or not they fit. Neighboring
  * clusters see much the same, so the tree is descended once for a group of them. A group that sees more than there is
  * room for is spread far; its clusters then descend for themselves. */
 int64_t MOR_ISA_NAME(mor_relation_list)(mor_relation *relation, const mor_relation_points *source,
@@ -222,7 +248,7 @@ int64_t MOR_ISA_NAME(mor_relation_list)(mor_relation *relation, const mor_relati
         const int64_t room = left > 0 ? left : 0;
         /* Without room nothing is written, and there may be no buffer yet. */
         int32_t *out = room > 0 ? relation->buffers[buffer] + total : relation->buffers[buffer];
-        int64_t count = 0;
+        list_writer list = {out, room, 0, 0};
         if (is_alone) {
             start_descent(&it, target->tree);
         }
@@ -230,14 +256,14 @@ int64_t MOR_ISA_NAME(mor_relation_list)(mor_relation *relation, const mor_relati
             if (is_alone) {
                 find_candidates(&it, eight.box, target->tree, reach2, &found);
             }
-            const int64_t written = count < room ? count : room;
-            count += append_candidates(&eight, target, &found, reach2, room > 0 ? out + written : out, room - written);
+            append_candidates(&list, &eight, target, &found, reach2, relation->has_runs);
         } while (it.depth > 0);
         relation->lists[cluster] = out;
-        relation->counts[cluster] = (int32_t)count;
-        const int64_t needed = count + mor_relation_words((int32_t)count);
-        if (count > 0 && needed <= room) {
-            mor_relation_set_near(mor_relation_near(relation, cluster), (int32_t)count);
+        relation->counts[cluster] = (int32_t)list.count;
+        relation->sizes[cluster] = (int32_t)list.size;
+        const int64_t needed = list.size + mor_relation_words((int32_t)list.count);
+        if (list.count > 0 && needed <= room) {
+            mor_relation_set_near(mor_relation_near(relation, cluster), (int32_t)list.count);
         }
         total += needed;
     }

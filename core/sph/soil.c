@@ -279,6 +279,9 @@ static mor_status allocate_soil(mor_context *context, mor_soil *soil, int64_t n_
     const mor_soil_settings *s = &soil->settings;
     MOR_TRY(context, mor_tree_init(context, &soil->tree, n_particles));
     MOR_TRY(context, mor_relation_init(context, &soil->inner, MOR_CONFIGURATION_CURRENT, soil->tree.n_clusters));
+    if (!s->is_periodic[0] && !s->is_periodic[1] && !s->is_periodic[2]) {
+        MOR_TRY(context, mor_relation_use_runs(context, &soil->inner));
+    }
     const int64_t padded = soil->tree.n_clusters * MOR_CLUSTER;
     MOR_TRY(context, MOR_NEW(context, &soil->records, padded * MOR_RECORD_SIZE, "neighbor records"));
     MOR_TRY(context, MOR_NEW(context, &soil->order, n_particles, "order of the sort"));
@@ -512,7 +515,8 @@ double mor_soil_bytes_per_particle(const mor_soil *soil)
                                                    soil->settings.scheme.reconstruction == 1, soil->of_soil != NULL);
     bytes += soil->sleep.states != NULL ? mor_sleep_bytes(&soil->sleep) : 0.0;
     bytes += padded * soil->extra_width * (double)sizeof(double);
-    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + 2 * sizeof(int32_t));
+    const int n_sizes = soil->inner.sizes != soil->inner.counts ? 3 : 2; /* with the occupied clusters */
+    bytes += (double)soil->inner.n_clusters * (sizeof *soil->inner.lists + (double)n_sizes * sizeof(int32_t));
     for (int buffer = 0; buffer < soil->inner.n_buffers; ++buffer) {
         bytes += (double)soil->inner.capacities[buffer] * sizeof(int32_t);
     }

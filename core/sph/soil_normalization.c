@@ -51,9 +51,9 @@ static int64_t sum_inner(const mor_soil *soil, const place *places, place *sum)
     int64_t n = 0;
     for (int64_t cluster = 0; cluster < soil->tree.n_clusters; ++cluster) {
         bool is_inner = (cluster + 1) * MOR_CLUSTER <= soil->set.n_particles;
-        for (int32_t k = 0; k < soil->inner.counts[cluster] && is_inner; ++k) {
-            is_inner = places[mor_images_owner(&soil->images, soil->inner.lists[cluster][k])].value >=
-                       AT_SURFACE * soil->lattice_sum;
+        mor_relation_cursor cursor = mor_relation_begin(&soil->inner, cluster);
+        for (int64_t k = mor_relation_next(&cursor); k >= 0 && is_inner; k = mor_relation_next(&cursor)) {
+            is_inner = places[mor_images_owner(&soil->images, k)].value >= AT_SURFACE * soil->lattice_sum;
         }
         for (int64_t lane = 0; lane < MOR_CLUSTER && is_inner; ++lane) {
             sum->value += places[cluster * MOR_CLUSTER + lane].value;

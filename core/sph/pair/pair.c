@@ -17,16 +17,15 @@ const mor_pair_table *mor_pair_select(const char *name)
     return isa < 0 ? NULL : tables[isa](has_halves);
 }
 
-static int find_soil_of_list(const int32_t *list, int32_t count, const double *of_soil)
+static int find_soil_of_list(mor_relation_cursor cursor, const double *of_soil)
 {
     const double *index = of_soil + MOR_PAIR_OF_SOIL_INDEX;
-    const double first = index[(int64_t)list[0] * MOR_PAIR_OF_SOIL_SIZE];
-    for (int32_t k = 1; k < count; ++k) {
-        if (index[(int64_t)list[k] * MOR_PAIR_OF_SOIL_SIZE] != first) {
-            return -1;
-        }
+    int64_t k = mor_relation_next(&cursor);
+    const double first = k >= 0 ? index[k * MOR_PAIR_OF_SOIL_SIZE] : -1.0;
+    while (k >= 0 && index[k * MOR_PAIR_OF_SOIL_SIZE] == first) {
+        k = mor_relation_next(&cursor);
     }
-    return (int)first;
+    return k < 0 ? (int)first : -1;
 }
 
 void mor_pair_find_one_soil(const mor_relation *relation, const double *of_soil, int64_t first, int64_t last,
@@ -34,7 +33,6 @@ void mor_pair_find_one_soil(const mor_relation *relation, const double *of_soil,
 {
     for (int64_t cluster = first; cluster < last; ++cluster) {
         /* The list holds the particles of the cluster, too. */
-        const int32_t count = relation->counts[cluster];
-        one_soil[cluster] = (int8_t)(count > 0 ? find_soil_of_list(relation->lists[cluster], count, of_soil) : -1);
+        one_soil[cluster] = (int8_t)find_soil_of_list(mor_relation_begin(relation, cluster), of_soil);
     }
 }

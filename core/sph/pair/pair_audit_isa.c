@@ -296,7 +296,8 @@ INLINE void audit_chunk_of(audit_part *part, const audit_chunk *it, const audit_
 INLINE void audit_cluster(const mor_pair_audit_job *job, int64_t cluster, const audit_form form)
 {
     int32_t near[CHUNK + MOR_NEAR_GROUP];
-    mor_near_reader reader = mor_near_read(job->arrays->inner, cluster);
+    mor_near_reader reader;
+    mor_near_open(&reader, job->arrays->inner, cluster);
     const bool has_stress = job->has_stress || job->constants->has_spin;
     audit_part parts[PARTS];
     geometries found;

@@ -7,15 +7,13 @@
 /* Calls a function of a dimension, the last argument, with one that is constant in each copy. */
 #define CALL_BY_DIMENSION(call, c, ...) ((c)->dimension == 2 ? call(c, __VA_ARGS__, 2) : call(c, __VA_ARGS__, 3))
 
-INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *job, const int32_t *list, int32_t count,
-                        int64_t first, double *out, const int dimension)
+/* Adds the kernel of the targets of a list, shape [count], to sums, shape [MOR_KERNEL_SUMS]. */
+INLINE void add_kernels(vec *sums, const frame *f, const mor_pair_kernel_job *job, const int32_t *list, int32_t count,
+                        const int dimension)
 {
-    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
-    vec sums[MOR_KERNEL_SUMS];
-    memset(sums, 0, sizeof sums);
     for (int32_t entry = 0; entry < count; ++entry) {
         const double *target = job->target + (int64_t)list[entry] * job->target_stride;
-        const pair p = pair_of(&f, target, dimension);
+        const pair p = pair_of(f, target, dimension);
         const vec cube = p.reach * p.reach * p.reach * target[MOR_RECORD_VOLUME];
         sums[MOR_KERNEL_SUM_VALUE] += cube * p.reach * (5.0 - 4.0 * p.reach);
         vec kr[3];
@@ -27,6 +25,24 @@ INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *
         for (int a = 0; a < 2 * dimension - 3; ++a) {
             sums[MOR_KERNEL_SUM_MOMENT + 3 + a] += kr[a] * p.r[(a + 1) % 3];
         }
+    }
+}
+
+/* The sums of a part of a cluster over the short list of a slot, or all that the cluster lists. */
+INLINE void kernel_part(const mor_pair_constants *c, const mor_pair_kernel_job *job, const mor_pair_slot *slot,
+                        int64_t first, double *out, const int dimension)
+{
+    const frame f = frame_of(c, job->source + first * MOR_RECORD_SIZE, MOR_RECORD_SIZE);
+    vec sums[MOR_KERNEL_SUMS];
+    memset(sums, 0, sizeof sums);
+    mor_list_reader reader;
+    if (slot != NULL) {
+        mor_list_open_entries(&reader, slot->near, slot->n_near);
+    } else {
+        mor_list_open(&reader, job->relation, first / MOR_CLUSTER);
+    }
+    while (mor_list_next(&reader)) {
+        add_kernels(sums, &f, job, reader.block, reader.n, dimension);
     }
     store(out, MOR_KERNEL_SUMS, 0, LANES, sums[0] * c->kernel_normalization);
     for (int a = 1; a < MOR_KERNEL_SUMS; ++a) {
@@ -73,11 +89,9 @@ INLINE void kernel_range(const mor_pair_constants *c, const mor_pair_kernel_job 
             slot->n_near = find_near(c, job, slot, dimension);
         }
         const int64_t cluster = slot != NULL ? slot->cluster : place;
-        const int32_t *list = slot != NULL ? slot->near : job->relation->lists[cluster];
-        const int32_t count = slot != NULL ? slot->n_near : job->relation->counts[cluster];
         for (int64_t part = 0; part < PARTS; ++part) {
             double *out = job->sums + ((place - first) * MOR_CLUSTER + part * LANES) * MOR_KERNEL_SUMS;
-            kernel_part(c, job, list, count, cluster * MOR_CLUSTER + part * LANES, out, dimension);
+            kernel_part(c, job, slot, cluster * MOR_CLUSTER + part * LANES, out, dimension);
         }
     }
 }

@@ -53,8 +53,8 @@ INLINE int find_chunk(geometries *chunk, int32_t *reached, chunk_list *it, const
 #else
     (void)chunk, (void)f, (void)dimension;
     const int n = mor_near_next(&it->reader, reached, CHUNK);
-    for (int32_t k = it->reader.entry; k < it->reader.count && k < it->reader.entry + CHUNK; ++k) {
-        ask_for(it->compared.records + (int64_t)it->reader.list[k] * MOR_RECORD_SIZE,
+    for (int32_t k = it->reader.entry; k < it->reader.list.n && k < it->reader.entry + CHUNK; ++k) {
+        ask_for(it->compared.records + (int64_t)it->reader.list.block[k] * MOR_RECORD_SIZE,
                 MOR_RECORD_SIZE * (int64_t)sizeof(real), 0);
     }
     return n;
@@ -104,8 +104,9 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
 #endif
     const real *own = records + (cluster * MOR_CLUSTER + (int64_t)part * LANES) * MOR_RECORD_SIZE;
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
-    chunk_list list = {{records, job->inner->lists[cluster], job->inner->counts[cluster], 0, {NULL, 0}},
-                       mor_near_read(job->inner, cluster)};
+    chunk_list list;
+    open_targets(&list.compared, records, job->inner, cluster, NULL);
+    mor_near_open(&list.reader, job->inner, cluster);
     vec stress[6];
     vec sum[MOR_PAIR_DIFFERENCES];
     for (int a = 0; a < 6; ++a) {

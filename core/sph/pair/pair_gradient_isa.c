@@ -388,12 +388,13 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     }
     const int64_t next = first / MOR_CLUSTER + 1;
     if (first % MOR_CLUSTER == 0 && (next + 1) * MOR_CLUSTER <= arrays->n_particles) {
-        const int64_t size_bytes = arrays->inner->counts[next] * (int64_t)sizeof(int32_t);
+        const int64_t size_bytes = arrays->inner->sizes[next] * (int64_t)sizeof(int32_t);
         ask_for(arrays->inner->lists[next], size_bytes < FIRST_BYTES ? size_bytes : FIRST_BYTES, 0);
         ask_for(mor_relation_near(arrays->inner, next), 1, 0);
         ask_for(arrays->velocity_gradient + next * MOR_CLUSTER * 9, MOR_CLUSTER * 9 * sizeof(double), 1);
     }
-    mor_near_reader reader = mor_near_read(arrays->inner, first / MOR_CLUSTER);
+    mor_near_reader reader;
+    mor_near_open(&reader, arrays->inner, first / MOR_CLUSTER);
     int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
     for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
         sum_pairs(&sums, totals, arrays, &g, &f, near, n, first, form);

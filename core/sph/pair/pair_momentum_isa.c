@@ -399,11 +399,8 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
 #else
     double(*totals)[MOR_CLUSTER] = NULL;
 #endif
-    target_list list = {READ(records),
-                        arrays->inner->lists[cluster],
-                        arrays->inner->counts[cluster],
-                        0,
-                        {mor_relation_near(arrays->inner, cluster), 0}};
+    target_list list;
+    open_targets(&list, READ(records), arrays->inner, cluster, mor_relation_near(arrays->inner, cluster));
     frame frames[PARTS]; /* stay in registers, for nobody else sees them */
     for (int part = 0; part < PARTS; ++part) {
         frames[part] = parts[part].frame;
@@ -411,12 +408,12 @@ INLINE void momentum_cluster(const mor_pair_constants *c, const mor_pair_arrays 
     int32_t near[CHUNK];
     uint64_t seen[PARTS];
     int32_t of_part[CHUNK]; /* those that a part sees, where separations are not kept for all parts at once */
-    while (list.entry < list.count) {
-        const int n = find_reached(near, &list, frames, PARTS, chunks, seen, form.dimension);
+    int n = 0;
+    while ((n = find_reached(near, &list, frames, PARTS, chunks, seen, form.dimension)) > 0) {
         rows.targets.near = near;
         rows.targets.n = n;
         prepare_rows(&rows, form);
-        for (int part = 0; part < PARTS && n > 0; ++part) {
+        for (int part = 0; part < PARTS; ++part) {
             if (SELECTS) {
                 rows.targets.n = select_targets(near, n, seen[part], of_part);
                 rows.targets.near = of_part;

@@ -86,63 +86,78 @@ INLINE int lanes_reached(const frame *f, const real *records, int32_t i, int32_t
 
 /** A list of targets that is searched chunk by chunk. */
 typedef struct target_list {
-    const real *records;    /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
-    const int32_t *targets; /* shape [count] */
-    int32_t count;
-    int32_t entry;          /* next of them */
+    const real *records; /* shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles */
+    mor_list_reader reader;
+    int32_t entry;          /* next of its block */
+    int32_t count;          /* of the whole list */
     mor_near_writer writer; /* keeps who is in reach; words NULL: it does not */
 } target_list;
 
-/** Prefetches the record of a target some entries on from entry k of a list. */
-INLINE void prefetch_ahead(const target_list *it, int32_t k)
+/** Opens the list of a cluster.
+ *  @param records  [in]  shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles
+ *  @param relation [in]  built; outlives the list
+ *  @param words    [in]  of the bits to write; NULL: none */
+INLINE void open_targets(target_list *it, const real *records, const mor_relation *relation, int64_t cluster,
+                         uint32_t *words)
 {
-    __builtin_prefetch(it->records + (int64_t)it->targets[k + AHEAD < it->count ? k + AHEAD : k] * MOR_RECORD_SIZE);
+    it->records = records;
+    mor_list_open(&it->reader, relation, cluster);
+    it->entry = 0;
+    it->count = relation->counts[cluster];
+    it->writer = (mor_near_writer){words, 0};
 }
 
-/** Keeps whether entry k of a list is in reach; returns the same, 0 or 1. */
+/** Prefetches the record of a target some entries on from entry k of the block of a list. */
+INLINE void prefetch_ahead(const target_list *it, int32_t k)
+{
+    const int32_t later = k + AHEAD < it->reader.n ? k + AHEAD : k;
+    __builtin_prefetch(it->records + (int64_t)it->reader.block[later] * MOR_RECORD_SIZE);
+}
+
+/** Keeps whether entry k of the block of a list is in reach; returns the same, 0 or 1. */
 INLINE int keep_reached(target_list *it, int32_t k, int is_reached)
 {
     if (it->writer.words != NULL) {
-        mor_near_keep(&it->writer, k, it->count, is_reached);
+        mor_near_keep(&it->writer, it->reader.first + k, it->count, is_reached);
     }
     return is_reached != 0;
 }
 
-/** Finds the next targets of a list that are in reach of any particle, until there are as many as a chunk holds.
- *  @param reached   [out]     shape [CHUNK]; the targets
+/** Finds the next targets of the block of a list that are in reach of any particle, until there are as many as a chunk
+ *  holds.
+ *  @param reached   [in,out]  shape [CHUNK]; the targets
+ *  @param n         [in]      how many there are already
  *  @param it        [in,out]  one object; its entry moves on
  *  @param frames    [in]      shape [n_frames]; of the particles; one where there are two targets
  *  @param n_frames  [in]      1 to PARTS
  *  @param chunks    [in,out]  shape [n_frames], in double precision [1]; keep separations from one target a row
  *  @param seen      [out]     shape [n_frames]; a bit for each target that is in reach of that part; of one part unset
  *  @param dimension [in]      2 or 3
- *  Returns: how many. */
-INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, const int n_frames, geometries *chunks,
-                        uint64_t *seen, const int dimension)
+ *  Returns: how many there are. */
+INLINE int find_in_block(int32_t *reached, int n, target_list *it, const frame *frames, const int n_frames,
+                         geometries *chunks, uint64_t *seen, const int dimension)
 {
     const real reach2 = near_reach2(frames);
+    const int32_t *targets = it->reader.block;
+    const int32_t count = it->reader.n;
     int32_t k = it->entry;
-    int n = 0;
 #if TARGETS == 2
     (void)n_frames, (void)chunks, (void)seen;
-    while (k < it->count && n < CHUNK) {
-        const int32_t next = k + 1 < it->count ? k + 1 : k;
+    while (k < count && n < CHUNK) {
+        const int32_t next = k + 1 < count ? k + 1 : k;
         prefetch_ahead(it, k);
         prefetch_ahead(it, next);
-        const int lanes = lanes_reached(frames, it->records, it->targets[k], it->targets[next], reach2, dimension);
-        reached[n] = it->targets[k];
+        const int lanes = lanes_reached(frames, it->records, targets[k], targets[next], reach2, dimension);
+        reached[n] = targets[k];
         n += keep_reached(it, k++, lanes & FIRST_TARGET);
-        if (k < it->count && n < CHUNK) {
-            reached[n] = it->targets[k];
+        if (k < count && n < CHUNK) {
+            reached[n] = targets[k];
             n += keep_reached(it, k++, lanes & ~FIRST_TARGET);
         }
     }
 #else
-    for (int part = 0; part < n_frames && n_frames > 1; ++part) {
-        seen[part] = 0;
-    }
-    for (; k < it->count && n < CHUNK; ++k) {
-        const real *target = it->records + (int64_t)it->targets[k] * MOR_RECORD_SIZE;
+    for (; k < count && n < CHUNK; ++k) {
+        const real *target = it->records + (int64_t)targets[k] * MOR_RECORD_SIZE;
         int any = 0;
         prefetch_ahead(it, k);
         for (int part = 0; part < n_frames; ++part) {
@@ -156,11 +171,33 @@ INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, 
                 seen[part] |= (uint64_t)is_seen << n;
             }
         }
-        reached[n] = it->targets[k];
+        reached[n] = targets[k];
         n += keep_reached(it, k, any);
     }
 #endif
     it->entry = k;
+    return n;
+}
+
+/** Finds the next targets of a list that are in reach of any particle: as many as a chunk holds, fewer only at the end
+ *  of the list. Parameters as above.
+ *  Returns: how many, 0 at the end. */
+INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, const int n_frames, geometries *chunks,
+                        uint64_t *seen, const int dimension)
+{
+    int n = 0;
+    for (int part = 0; part < n_frames && n_frames > 1; ++part) {
+        seen[part] = 0;
+    }
+    while (n < CHUNK) {
+        if (it->entry >= it->reader.n) {
+            it->entry = 0;
+            if (!mor_list_next(&it->reader)) {
+                break;
+            }
+        }
+        n = find_in_block(reached, n, it, frames, n_frames, chunks, seen, dimension);
+    }
     return n;
 }
 

@@ -14,7 +14,8 @@ INLINE void diffuse_part(const mor_pair_constants *c, const mor_pair_arrays *arr
     vec rate = broadcast(0.0);
     vec diagonal = broadcast(0.0);
     int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
-    mor_near_reader reader = mor_near_read(arrays->inner, first / MOR_CLUSTER);
+    mor_near_reader reader;
+    mor_near_open(&reader, arrays->inner, first / MOR_CLUSTER);
     for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
         for (int32_t entry = 0; entry < n; ++entry) {
             const double *target = target_of(arrays, near[entry]);
@@ -54,7 +55,8 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
     vec sums[6];
     memset(sums, 0, sizeof sums);
     int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
-    mor_near_reader reader = mor_near_read(arrays->inner, first / MOR_CLUSTER);
+    mor_near_reader reader;
+    mor_near_open(&reader, arrays->inner, first / MOR_CLUSTER);
     for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
         for (int32_t entry = 0; entry < n; ++entry) {
             const double *target = target_of(arrays, near[entry]);

@@ -169,11 +169,11 @@ static bool sees_restless(const mor_sleep *sleep, const mor_sleep_job *job, int6
  * have no cluster, are on no list: soil does not sleep in periodic domains. */
 static int64_t list_clusters(const mor_relation *relation, int64_t cluster, int32_t *found)
 {
-    const int32_t *list = relation->lists[cluster];
+    mor_relation_cursor cursor = mor_relation_begin(relation, cluster);
     int64_t n = 0;
     int64_t before = -1;
-    for (int32_t k = 0; k < relation->counts[cluster]; ++k) {
-        const int64_t other = list[k] / MOR_CLUSTER;
+    for (int64_t k = mor_relation_next(&cursor); k >= 0; k = mor_relation_next(&cursor)) {
+        const int64_t other = k / MOR_CLUSTER;
         const bool is_new = other != before && other != cluster;
         before = other;
         if (is_new && found != NULL) {
