@@ -62,6 +62,7 @@ static const uint64_t mor_bit_places[256] = {MOR_BIT_ROW_64(0), MOR_BIT_ROW_64(6
 #endif
 
 /** Writes the entries of a run; returns their number, 1.
+ *  @param run   [in]   one number of a list of runs
  *  @param found [out]  shape [MOR_CLUSTER]; what is beyond that number means nothing */
 INLINE int32_t mor_list_expand(uint32_t run, int32_t *found)
 {

@@ -216,6 +216,9 @@ static inline void assembly_open(assembly *a, int dimension, const double *point
     assert_int_equal(mor_tree_init(&a->context, &a->tree, n), MOR_OK);
     assert_int_equal(mor_relation_init(&a->context, &a->relation, MOR_CONFIGURATION_CURRENT, a->tree.n_clusters),
                      MOR_OK);
+    if (dimension == 3) { /* lists in a plane stay lists of entries, so that both are read */
+        assert_int_equal(mor_relation_use_runs(&a->context, &a->relation), MOR_OK);
+    }
     assembly_list(a, 0.2 * ASSEMBLY_SPACING);
 }
 

@@ -96,7 +96,8 @@ typedef struct target_list {
 /** Opens the list of a cluster.
  *  @param records  [in]  shape [n padded to 8, MOR_RECORD_SIZE], units of MOR_RECORD_...; of all particles
  *  @param relation [in]  built; outlives the list
- *  @param words    [in]  of the bits to write; NULL: none */
+ *  @param cluster  [in]  0 .. n_clusters - 1
+ *  @param words    [in]  shape [mor_relation_words(count)], borrowed; bits to write; NULL: none */
 INLINE void open_targets(target_list *it, const real *records, const mor_relation *relation, int64_t cluster,
                          uint32_t *words)
 {
@@ -179,8 +180,12 @@ INLINE int find_in_block(int32_t *reached, int n, target_list *it, const frame *
     return n;
 }
 
-/** Finds the next targets of a list that are in reach of any particle: as many as a chunk holds, fewer only at the end
- *  of the list. Parameters as above.
+/** Finds the next targets of a list that are in reach of any particle: as many as a chunk holds, fewer only at its end.
+ *  @param reached   [out]     shape [CHUNK]; the targets
+ *  @param it        [in,out]  one object; goes on
+ *  @param frames    [in]      shape [n_frames]; as above, as what follows
+ *  @param chunks    [in,out]  shape [n_frames], in double precision [1]
+ *  @param seen      [out]     shape [n_frames]
  *  Returns: how many, 0 at the end. */
 INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, const int n_frames, geometries *chunks,
                         uint64_t *seen, const int dimension)
