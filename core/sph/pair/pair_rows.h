@@ -184,8 +184,10 @@ INLINE int find_in_block(int32_t *reached, int n, target_list *it, const frame *
  *  @param reached   [out]     shape [CHUNK]; the targets
  *  @param it        [in,out]  one object; goes on
  *  @param frames    [in]      shape [n_frames]; as above, as what follows
+ *  @param n_frames  [in]      1 to PARTS
  *  @param chunks    [in,out]  shape [n_frames], in double precision [1]
  *  @param seen      [out]     shape [n_frames]
+ *  @param dimension [in]      2 or 3
  *  Returns: how many, 0 at the end. */
 INLINE int find_reached(int32_t *reached, target_list *it, const frame *frames, const int n_frames, geometries *chunks,
                         uint64_t *seen, const int dimension)
