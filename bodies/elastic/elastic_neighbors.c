@@ -83,8 +83,8 @@ static void fill_clusters(mor_elastic *elastic, const mor_relation *relations)
                                       .n_lanes = left < MOR_CLUSTER ? (int32_t)left : (int32_t)MOR_CLUSTER,
                                       .body = b};
             for (int32_t e = 0; e < count; ++e) {
-                work->entries[entry] =
-                    (mor_elastic_entry){(int32_t)(first_slot + relations[b].lists[k][e]), (int32_t)entry};
+                work->entries[entry] = (mor_elastic_entry){
+                    (int32_t)(first_slot + mor_relation_entries(&relations[b], k)[e]), (int32_t)entry};
                 ++entry;
             }
         }

@@ -272,7 +272,7 @@ void mor_images_sort(mor_context *context, const mor_images *images, mor_relatio
 {
     MOR_PARALLEL_FOR (context, cluster, relation->n_clusters, MOR_BLOCK / MOR_CLUSTER) {
         const int32_t count = relation->counts[cluster];
-        int32_t *list = relation->lists[cluster];
+        int32_t *list = mor_relation_entries(relation, cluster);
         if (count > 0 && list[count - 1] >= images->first) {
             merge_list(images, list, count);
         }

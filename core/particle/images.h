@@ -129,8 +129,8 @@ static inline mor_relation_points mor_images_targets(const mor_images *images)
     return (mor_relation_points){&images->tree, images->places, 3};
 }
 
-/** Puts the entries of all lists, the short ones too, in the order of their owners; after each build.
- *  @param relation [in,out]  built with targets of these images */
+/** Puts the entries of all lists in the order of their owners; after each build.
+ *  @param relation [in,out]  built with targets of these images; of entries, not of runs */
 void mor_images_sort(mor_context *context, const mor_images *images, mor_relation *relation);
 
 /** Returns the point that an entry of a list stands for; without images the entry itself.

@@ -80,8 +80,29 @@ void mor_relation_restore_near(const mor_relation *relation, int64_t first, int6
 mor_status mor_relation_init(mor_context *context, mor_relation *relation, mor_configuration configuration,
                              int64_t n_clusters);
 
-/* A run: number of a target cluster in the upper bits, and below a bit for each of its points that is listed. */
+/* A run: number of a target cluster in the upper bits, and below a bit for each of its points that is listed, of at
+ * least one. */
 enum { MOR_RUN_BITS = MOR_CLUSTER, MOR_RUN_CLUSTERS = 1 << (32 - MOR_RUN_BITS) };
+
+/** Returns the points of a run, bit by bit. */
+static inline uint32_t mor_run_points(int32_t run)
+{
+    return (uint32_t)run & ((1U << MOR_RUN_BITS) - 1);
+}
+
+/** Returns the first point of the cluster of a run. */
+static inline int64_t mor_run_first(int32_t run)
+{
+    return (int64_t)((uint32_t)run >> MOR_RUN_BITS) * MOR_CLUSTER;
+}
+
+/** Returns the list of a cluster, shape [counts[cluster]], of a relation that is not to have runs, or NULL of one that
+ *  has.
+ *  @param cluster [in]  0 .. n_clusters - 1 */
+static inline int32_t *mor_relation_entries(const mor_relation *relation, int64_t cluster)
+{
+    return relation->has_runs ? NULL : relation->lists[cluster];
+}
 
 /** Has lists kept as runs, one number for a target cluster in place of one for each of its points. They are read by a
  *  cursor, or block by block, see relation_near.h. Images, whose lists are not ascending, are not sorted into runs.
@@ -116,12 +137,12 @@ static inline int64_t mor_relation_next(mor_relation_cursor *cursor)
             return -1;
         }
         cursor->left -= 1;
-        const uint32_t number = (uint32_t)*cursor->list++;
+        const int32_t number = *cursor->list++;
         if (!cursor->has_runs) {
             return number;
         }
-        cursor->run = number & ((1U << MOR_RUN_BITS) - 1);
-        cursor->first = (int64_t)(number >> MOR_RUN_BITS) * MOR_CLUSTER;
+        cursor->run = mor_run_points(number);
+        cursor->first = mor_run_first(number);
     }
     const int lane = __builtin_ctz(cursor->run);
     cursor->run &= cursor->run - 1;

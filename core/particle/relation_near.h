@@ -10,7 +10,7 @@
 
 /** @file
  *  Reads lists block by block, all of their entries or those whose bits are set, and writes the bits, see
- *  mor_relation_near. Only files named *_isa.c include it. */
+ *  mor_relation_near. Only files named *_isa.c and tests include it. */
 
 /* BLOCK: entries of a block, whole words of bits. GROUP: entries that are looked at together. */
 enum { MOR_LIST_BLOCK = 512, MOR_NEAR_GROUP = 16 };
@@ -64,10 +64,10 @@ static const uint64_t mor_bit_places[256] = {MOR_BIT_ROW_64(0), MOR_BIT_ROW_64(6
 /** Writes the entries of a run; returns their number, 1.
  *  @param run   [in]   one number of a list of runs
  *  @param found [out]  shape [MOR_CLUSTER]; what is beyond that number means nothing */
-INLINE int32_t mor_list_expand(uint32_t run, int32_t *found)
+INLINE int32_t mor_list_expand(int32_t run, int32_t *found)
 {
-    const uint32_t points = run & ((1U << MOR_RUN_BITS) - 1);
-    const int32_t first = (int32_t)(run >> MOR_RUN_BITS) * MOR_CLUSTER;
+    const uint32_t points = mor_run_points(run);
+    const int32_t first = (int32_t)mor_run_first(run);
 #if defined(__AVX512F__)
     const __m256i all = _mm256_add_epi32(_mm256_set1_epi32(first), _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0));
     _mm256_storeu_si256((__m256i *)found, _mm256_maskz_compress_epi32((__mmask8)points, all));
@@ -96,7 +96,7 @@ INLINE bool mor_list_next(mor_list_reader *reader)
     int32_t n = reader->ahead;
     memcpy(reader->room, reader->room + MOR_LIST_BLOCK, (size_t)n * sizeof *reader->room);
     for (; reader->left > 0 && n < MOR_LIST_BLOCK; --reader->left) {
-        n += mor_list_expand((uint32_t)*reader->list++, reader->room + n);
+        n += mor_list_expand(*reader->list++, reader->room + n);
     }
     reader->ahead = n > MOR_LIST_BLOCK ? n - MOR_LIST_BLOCK : 0;
     reader->n = n - reader->ahead;

@@ -119,7 +119,7 @@ static void find_powers(const void *soil, const void *pairs, int64_t first, int6
     }
 }
 
-/* (E6), (E8): each part of the pair forces. Particles are where they were, so that the short lists are those of the
+/* (E6), (E8): each part of the pair forces. Particles are where they were, so that bits of lists are those of the
  * momentum loop; what sleeps stands still. */
 static void audit_pairs(mor_context *context, mor_soil_powers *job, mor_view *view)
 {

@@ -51,8 +51,9 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
         return mor_relation_build(context, &soil->inner, points, points, reach);
     }
     MOR_TRY(context, mor_images_find(context, images, position, soil->set.n_particles, 3, NULL, reach));
-    MOR_TRY(context, mor_images_make_room(context, images, &soil->image_room, arrays, 6));
+    const mor_status status = mor_images_make_room(context, images, &soil->image_room, arrays, 6);
     mor_soil_place_late(context, soil);
+    MOR_TRY(context, status);
     points->records = images->places;
     mor_tree_fit(&soil->tree, points->records, 3);
     const mor_relation_points targets = mor_images_targets(images);
@@ -64,7 +65,6 @@ mor_status mor_soil_build_inner(mor_context *context, mor_soil *soil, const doub
 void mor_soil_follow_records(mor_context *context, const mor_soil *soil)
 {
     mor_images_follow(context, &soil->images, soil->records, MOR_RECORD_SIZE, MOR_RECORD_POSITION);
-    mor_images_follow(context, &soil->images, soil->extra, MOR_EXTRA_SIZE, -1);
 }
 
 void mor_soil_find_unwrapped(const mor_soil *soil, int64_t particle, double *place)

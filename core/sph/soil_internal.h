@@ -209,8 +209,10 @@ double mor_soil_gravity_part(const mor_soil *soil, const mor_step *step);
     FIELD(STRESS)                                                                                                      \
     FIELD(STRAIN_RATE)                                                                                                 \
     FIELD(MEAN_STRESS)                                                                                                 \
-    FIELD(FLOW) FIELD(HOURGLASS) FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP)               \
-        FIELD(GAP_FACE) FIELD(FACE_GROWTH) FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
+    FIELD(FLOW)                                                                                                        \
+    FIELD(HOURGLASS)                                                                                                   \
+    FIELD(HOURGLASS_MOMENT) FIELD(SPIN_STRESS) FIELD(SEPARATION) FIELD(GAP) FIELD(GAP_FACE) FIELD(FACE_GROWTH)         \
+        FIELD(QUIET) FIELD(QUIET_PLACE) FIELD(QUIET_STRESS) FIELD(QUIET_SPAN)
 
 /** Number of walls and boundaries together, 1. */
 static inline int mor_soil_contact_count(const mor_soil *soil)

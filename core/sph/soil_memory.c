@@ -88,7 +88,7 @@ mor_status mor_soil_find_present_spin(mor_context *context, void *owner, mor_vie
     MOR_PARALLEL_FOR (context, i, n, MOR_BLOCK) {
         mor_pair_pack_shears(stress + 6 * i, spin + 3 * i, extra + i * MOR_EXTRA_SIZE);
     }
-    mor_soil_follow_records(context, soil);
+    mor_images_follow(context, &soil->images, extra, MOR_EXTRA_SIZE, -1);
     return MOR_OK;
 }
 

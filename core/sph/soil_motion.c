@@ -81,20 +81,25 @@ typedef struct packing {
     double *records;
 } packing;
 
-/* What a scheme does not have stays zero, and means are read in steps in which stress diffuses. */
+/* Where nothing else lies in their memory, what a scheme does not have stays zero, and means are packed in steps in
+ * which stress diffuses and they are read. Else all is packed: copies in single precision of soil that sleeps are made
+ * in any step. */
 static void pack_extra(mor_context *context, mor_soil *soil, mor_view *view, const mor_step *step)
 {
+    const bool is_whole = mor_soil_shares(soil);
+    const bool has_mean = is_whole || mor_soil_diffuses(soil, step);
     const mor_pair_extra_job job = {.n_particles = soil->set.n_particles,
                                     .stress = mor_view_read(view, MOR_FIELD_STRESS),
                                     .spin = mor_view_read(view, MOR_FIELD_SPIN_STRESS),
                                     .hourglass = mor_view_read(view, MOR_FIELD_HOURGLASS),
-                                    .mean = mor_soil_diffuses(soil, step) ? mor_view_read(view, MOR_FIELD_MEAN_STRESS)
-                                                                          : NULL,
+                                    .mean = has_mean ? mor_view_read(view, MOR_FIELD_MEAN_STRESS) : NULL,
+                                    .is_whole = is_whole,
                                     .flow = mor_view_read(view, MOR_FIELD_FLOW),
-                                    .changing = soil->settings.shares_memory ? NULL : soil->sleep.changing};
+                                    .changing = is_whole ? NULL : soil->sleep.changing};
     double *extra = mor_view_write_shared(view, MOR_RESOURCE_FORCE_RECORDS, soil->extra);
     mor_pair_pack_extra(context, &job, extra);
     mor_pair_repeat_last(extra, MOR_EXTRA_SIZE, job.n_particles);
+    mor_images_follow(context, &soil->images, extra, MOR_EXTRA_SIZE, -1);
 }
 
 static mor_status pack_run(const packing *p, int64_t first, int64_t last)

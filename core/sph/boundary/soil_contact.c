@@ -385,7 +385,7 @@ static int64_t cut_lists(mor_soil_contact *contact)
     int64_t n_slots = 0;
     for (int64_t place = 0; place < relation->n_occupied; ++place) {
         const int32_t cluster = relation->occupied[place];
-        const int32_t *list = relation->lists[cluster];
+        const int32_t *list = mor_relation_entries(relation, cluster);
         const int32_t count = relation->counts[cluster];
         contact->first_slot[place] = (int32_t)n_slots;
         for (int32_t k = 0; k < count; ++n_slots) {

@@ -49,7 +49,7 @@ static void sum_neighbors(const neighborhood *it, int64_t cluster, int64_t i, su
     const double h = it->smoothing_length;
     const double factor = mor_kernel_gradient_factor(h, points->dimension);
     const double *place = points->position + 3 * i;
-    const int32_t *list = it->lists->lists[cluster];
+    const int32_t *list = mor_relation_entries(it->lists, cluster);
     *found = (sums){.value = 0.0};
     for (int32_t k = 0; k < it->lists->counts[cluster]; ++k) {
         const int64_t j = list[k];

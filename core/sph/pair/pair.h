@@ -136,7 +136,7 @@ static inline double mor_pair_volume_unit(double h, int dimension)
 typedef struct mor_pair_arrays {
     int64_t n_particles;
     const double *records;           /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
-    const mor_relation *inner;       /* current; momentum shortens its lists for the others */
+    const mor_relation *inner;       /* current; momentum finds its bits for the others */
     const double *artificial_stress; /* shape [n padded to 8, 6], Pa; NULL without */
     const double *extra;             /* shape [n padded to 8, 16]; units of MOR_EXTRA_...; NULL: none of it is read */
     double *acceleration;            /* shape [n, 3], m/s2 */
@@ -153,7 +153,7 @@ typedef struct mor_pair_arrays {
     const double *field;       /* shape [n padded to 8, MOR_PAIR_FIELD_SIZE], units of the enum; of a nonlocal law */
     double *diffusion;         /* shape [n, MOR_PAIR_DIFFUSION_SIZE]; units of the enum */
     const int8_t *asleep;      /* shape [clusters]; not 0: whoever runs a loop leaves it out, with zeros; NULL: none */
-    const int8_t *changing;    /* shape [clusters]; 0: it is as in the last step; NULL: none is */
+    const int8_t *changing;    /* shape [clusters]; 0: what is read is as in the last step; NULL: none is */
     mor_pair_single_arrays singles; /* for the loops in mixed precision only */
     bool has_singles;               /* nothing but velocities has changed since these were packed */
 } mor_pair_arrays;
@@ -203,7 +203,7 @@ typedef struct mor_pair_tangent_job {
     const double *records;      /* shape [n padded to 8, 16]; units of MOR_RECORD_... */
     const float *singles;       /* shape [n padded to 8, 16]; as in mor_pair_single_arrays; NULL: pairs in double */
     const uint8_t *is_wide;     /* shape [clusters]; 1: its pairs are in double all the same; with singles */
-    const mor_relation *inner;  /* current, with short lists */
+    const mor_relation *inner;  /* current, with bits */
     const mor_pair_slot *slots; /* shape [n_slots]; who sees what of the boundary */
     const double *sums;         /* shape [n_slots * 8, MOR_KERNEL_SUMS]; over the slots; units of the enum */
     double *out; /* shape [n_slots * 8, 2, 3], Pa/m; along, then across the boundary; 0 out of its reach */

@@ -7,8 +7,8 @@
 #include "core/sph/pair/pair.h"
 
 /** @file
- *  The power of each part of the momentum loop, for the audit of energy: one pass over the short lists that momentum
- *  left, with the particles at the same places. Compiled for several instruction sets; all give the same bits.
+ *  The power of each part of the momentum loop, for the audit of energy: one pass over the targets that momentum found
+ *  in reach, with the particles at the same places. Compiled for several instruction sets; all give the same bits.
  *  Theory: docs/theory/energy.md, (E6) and (E8). */
 
 /** What an audit finds of a particle: what a part of the pair forces takes from its motion. */

@@ -14,6 +14,9 @@ void mor_pair_pack_extra(mor_context *context, const mor_pair_extra_job *job, do
             double *own = extra + i * MOR_EXTRA_SIZE;
             mor_pair_pack_shears(job->stress + 6 * i, job->spin != NULL ? job->spin + 3 * i : none, own);
             memcpy(own + MOR_EXTRA_HOURGLASS, job->hourglass != NULL ? job->hourglass + 3 * i : none, sizeof none);
+            if (job->is_whole) {
+                memset(own + MOR_EXTRA_FLOW, 0, (MOR_EXTRA_SIZE - MOR_EXTRA_FLOW) * sizeof *own);
+            }
             if (job->mean != NULL) {
                 own[MOR_EXTRA_FLOW] = job->flow[i];
                 memcpy(own + MOR_EXTRA_MEAN, job->mean + 6 * i, 6 * sizeof *own);

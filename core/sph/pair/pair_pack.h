@@ -6,6 +6,7 @@
 #include "core/base/context.h"
 #include "core/sph/pair/pair.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /** @file
@@ -30,7 +31,8 @@ typedef struct mor_pair_extra_job {
     const double *stress;    /* shape [n_particles, 6], Pa */
     const double *spin;      /* shape [n_particles, 3]; axial vector of its skew part, Pa; NULL: none */
     const double *hourglass; /* shape [n_particles, 3], m; displacement against it; NULL: none */
-    const double *mean;      /* shape [n_particles, 6], Pa; NULL: what was packed stays */
+    const double *mean;      /* shape [n_particles, 6], Pa; NULL: what was packed stays, or is zero */
+    bool is_whole;           /* nothing stays of what was packed */
     const double *flow;      /* shape [n_particles], 1; with mean */
     const int8_t *changing;  /* shape [clusters]; 0: it stays as it was packed; NULL: none does */
 } mor_pair_extra_job;
