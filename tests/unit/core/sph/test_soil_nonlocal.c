@@ -326,6 +326,8 @@ static void react(bed *b, double mu, double dt, int n_steps, double spacing, int
         const mor_step step = {.length = dt, .time = b->time};
         mor_view view = mor_view_open(&b->soil->set, NULL);
         diffuse(b, dt);
+        /* Where memory is shared, records that were packed lie where the velocity gradient of a step would be. */
+        memset(set->data[MOR_FIELD_VELOCITY_GRADIENT], 0, (size_t)(9 * b->n) * sizeof(double));
         scene_require(b->it, mor_soil_advance_stress(&b->it->context, b->soil, &view, &step));
         memcpy(strain, kept, (size_t)b->n * 6 * sizeof *kept);
         for (int64_t i = 0; i < b->n; ++i) {
