@@ -76,6 +76,7 @@ static void fill_clusters(mor_elastic *elastic, const mor_relation *relations)
         for (int64_t k = 0; k < relations[b].n_clusters; ++k, ++c) {
             const int64_t left = body->n_particles - k * MOR_CLUSTER;
             const int32_t count = relations[b].counts[k];
+            const int32_t *list = mor_relation_entries(&relations[b], k);
             work->clusters[c] =
                 (mor_elastic_cluster){.first = body->first + k * MOR_CLUSTER,
                                       .first_entry = entry,
@@ -83,8 +84,7 @@ static void fill_clusters(mor_elastic *elastic, const mor_relation *relations)
                                       .n_lanes = left < MOR_CLUSTER ? (int32_t)left : (int32_t)MOR_CLUSTER,
                                       .body = b};
             for (int32_t e = 0; e < count; ++e) {
-                work->entries[entry] = (mor_elastic_entry){
-                    (int32_t)(first_slot + mor_relation_entries(&relations[b], k)[e]), (int32_t)entry};
+                work->entries[entry] = (mor_elastic_entry){(int32_t)(first_slot + list[e]), (int32_t)entry};
                 ++entry;
             }
         }

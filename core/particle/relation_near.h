@@ -107,9 +107,11 @@ INLINE bool mor_list_next(mor_list_reader *reader)
 /** A list of which those entries are read whose bits are set. */
 typedef struct mor_near_reader {
     mor_list_reader list;
-    const uint32_t *words; /* shape [mor_relation_words(count)] */
-    int32_t entry;         /* next of the block */
-    int32_t ahead;         /* targets found beyond those asked for */
+    const uint32_t *words;                            /* shape [mor_relation_words(count)] */
+    int32_t entry;                                    /* next of the block */
+    int32_t n;                                        /* targets of the present portion */
+    int32_t ahead;                                    /* found beyond it */
+    int32_t targets[MOR_LIST_BLOCK + MOR_NEAR_GROUP]; /* shape [n] */
 } mor_near_reader;
 
 /** Opens the list of a cluster before its first entry.
@@ -119,7 +121,7 @@ INLINE void mor_near_open(mor_near_reader *reader, const mor_relation *relation,
 {
     mor_list_open(&reader->list, relation, cluster);
     reader->words = mor_relation_near(relation, cluster);
-    reader->entry = reader->ahead = 0;
+    reader->entry = reader->n = reader->ahead = 0;
 }
 
 /** Appends those of at most MOR_NEAR_GROUP entries whose bits are set; returns their number, 1.
@@ -145,14 +147,13 @@ INLINE int mor_near_select(const int32_t *list, int32_t n, uint32_t set, int32_t
 #endif
 }
 
-/** Finds the next targets of a list whose bits are set: as many as asked for, fewer only at its end.
+/** Goes on to the next targets of a list whose bits are set: as many as asked for, fewer only at its end.
  *  @param reader [in,out]  moves on
- *  @param found  [in,out]  shape [room + MOR_NEAR_GROUP]; the targets; the same in all calls, for what is beyond room
- *                          is kept there for the next
- *  @param room   [in]      number asked for, at least MOR_NEAR_GROUP
- *  Returns: how many, 0 at the end. */
-INLINE int32_t mor_near_next(mor_near_reader *reader, int32_t *found, const int32_t room)
+ *  @param room   [in]      number asked for, the same in all calls, MOR_NEAR_GROUP to MOR_LIST_BLOCK
+ *  Returns: whether there are any. */
+INLINE bool mor_near_next(mor_near_reader *reader, const int32_t room)
 {
+    int32_t *found = reader->targets;
     int32_t n = reader->ahead;
     memcpy(found, found + room, (size_t)n * sizeof *found);
     while (n < room) {
@@ -170,7 +171,8 @@ INLINE int32_t mor_near_next(mor_near_reader *reader, int32_t *found, const int3
         reader->entry += MOR_NEAR_GROUP;
     }
     reader->ahead = n > room ? n - room : 0;
-    return n - reader->ahead;
+    reader->n = n - reader->ahead;
+    return reader->n > 0;
 }
 
 /** Bits of a list that are found entry by entry. */

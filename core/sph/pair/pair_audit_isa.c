@@ -295,7 +295,6 @@ INLINE void audit_chunk_of(audit_part *part, const audit_chunk *it, const audit_
 
 INLINE void audit_cluster(const mor_pair_audit_job *job, int64_t cluster, const audit_form form)
 {
-    int32_t near[CHUNK + MOR_NEAR_GROUP];
     mor_near_reader reader;
     mor_near_open(&reader, job->arrays->inner, cluster);
     const bool has_stress = job->has_stress || job->constants->has_spin;
@@ -305,11 +304,11 @@ INLINE void audit_cluster(const mor_pair_audit_job *job, int64_t cluster, const 
     for (int k = 0; k < PARTS; ++k) {
         start_part(parts + k, job, cluster * MOR_CLUSTER + k * LANES, form);
     }
-    for (int n = mor_near_next(&reader, near, CHUNK); n > 0; n = mor_near_next(&reader, near, CHUNK)) {
-        for (int q = 0; q < n && has_stress; ++q) {
-            find_tensor(job, near[q], stress + (ptrdiff_t)TENSOR * q);
+    while (mor_near_next(&reader, CHUNK)) {
+        for (int q = 0; q < reader.n && has_stress; ++q) {
+            find_tensor(job, reader.targets[q], stress + (ptrdiff_t)TENSOR * q);
         }
-        const audit_chunk it = {job, near, n, &found, has_stress ? stress : NULL};
+        const audit_chunk it = {job, reader.targets, reader.n, &found, has_stress ? stress : NULL};
         for (int k = 0; k < PARTS; ++k) {
             audit_chunk_of(parts + k, &it, form);
         }

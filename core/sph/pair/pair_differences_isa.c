@@ -40,25 +40,42 @@ INLINE void add_differences(vec *sum, const geometries *chunk, const record_rows
  * list was built: what is added up in single precision must not, and is compared once more. In double precision zeros
  * change no sum. */
 typedef struct chunk_list {
+#if defined(MOR_SINGLE)
     target_list compared;
+    int32_t reached[CHUNK];
+#else
+    const real *records;
     mor_near_reader reader;
+#endif
 } chunk_list;
 
-/* The next targets of a list, at most CHUNK, 0 at its end.
- *  reached: shape [CHUNK + MOR_NEAR_GROUP] */
-INLINE int find_chunk(geometries *chunk, int32_t *reached, chunk_list *it, const frame *f, const int dimension)
+INLINE void open_chunks(chunk_list *it, const real *records, const mor_relation *inner, int64_t cluster)
 {
 #if defined(MOR_SINGLE)
-    return find_reached(reached, &it->compared, f, 1, chunk, NULL, dimension);
+    open_targets(&it->compared, records, inner, cluster, NULL);
+#else
+    it->records = records;
+    mor_near_open(&it->reader, inner, cluster);
+#endif
+}
+
+/* Gives rows the next targets of a list, at most CHUNK; returns whether there are any. */
+INLINE bool find_chunk(geometries *chunk, record_rows *rows, chunk_list *it, const frame *f, const int dimension)
+{
+#if defined(MOR_SINGLE)
+    rows->near = it->reached;
+    rows->n = find_reached(it->reached, &it->compared, f, 1, chunk, NULL, dimension);
 #else
     (void)chunk, (void)f, (void)dimension;
-    const int n = mor_near_next(&it->reader, reached, CHUNK);
-    for (int32_t k = it->reader.entry; k < it->reader.list.n && k < it->reader.entry + CHUNK; ++k) {
-        ask_for(it->compared.records + (int64_t)it->reader.list.block[k] * MOR_RECORD_SIZE,
-                MOR_RECORD_SIZE * (int64_t)sizeof(real), 0);
+    mor_near_next(&it->reader, CHUNK);
+    rows->near = it->reader.targets;
+    rows->n = it->reader.n;
+    const mor_list_reader *list = &it->reader.list;
+    for (int32_t k = it->reader.entry; k < list->n && k < it->reader.entry + CHUNK; ++k) {
+        ask_for(it->records + (int64_t)list->block[k] * MOR_RECORD_SIZE, MOR_RECORD_SIZE * (int64_t)sizeof(real), 0);
     }
-    return n;
 #endif
+    return rows->n > 0;
 }
 
 /* Adds the sums over the particles of a part, shape [MOR_PAIR_DIFFERENCES], to those in double precision; in single
@@ -105,8 +122,7 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
     const real *own = records + (cluster * MOR_CLUSTER + (int64_t)part * LANES) * MOR_RECORD_SIZE;
     const frame f = frame_of(c, own, MOR_RECORD_SIZE);
     chunk_list list;
-    open_targets(&list.compared, records, job->inner, cluster, NULL);
-    mor_near_open(&list.reader, job->inner, cluster);
+    open_chunks(&list, records, job->inner, cluster);
     vec stress[6];
     vec sum[MOR_PAIR_DIFFERENCES];
     for (int a = 0; a < 6; ++a) {
@@ -114,11 +130,9 @@ INLINE void sum_part(const mor_pair_constants *c, const mor_pair_tangent_job *jo
     }
     memset(sum, 0, sizeof sum);
     geometries chunk;
-    int32_t reached[CHUNK + MOR_NEAR_GROUP];
     record_rows rows;
     rows.records = records;
-    rows.near = reached;
-    while ((rows.n = find_chunk(&chunk, reached, &list, &f, dimension)) > 0) {
+    while (find_chunk(&chunk, &rows, &list, &f, dimension)) {
         const int n = rows_of(&rows);
         join_records(&rows, MOR_RECORD_SIZE);
         for (int q = 0; q < n; ++q) {

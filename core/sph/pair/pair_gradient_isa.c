@@ -9,6 +9,7 @@
 
 /* FIRST_BYTES: of the next cluster's list that are prefetched. */
 enum { FIRST_BYTES = 512 };
+_Static_assert(NEAR_ROOM % CHUNK == 0, "whole chunks are found at once");
 
 /* What the gradient loop keeps of its own particles. */
 typedef struct gradient {
@@ -395,9 +396,8 @@ INLINE void gradient_part(const mor_pair_constants *c, const mor_pair_arrays *ar
     }
     mor_near_reader reader;
     mor_near_open(&reader, arrays->inner, first / MOR_CLUSTER);
-    int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
-    for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
-        sum_pairs(&sums, totals, arrays, &g, &f, near, n, first, form);
+    while (mor_near_next(&reader, NEAR_ROOM)) {
+        sum_pairs(&sums, totals, arrays, &g, &f, reader.targets, reader.n, first, form);
     }
 #if !defined(MOR_SINGLE)
     gradient_finish(&sums, c, arrays, first, form);

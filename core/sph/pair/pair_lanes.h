@@ -114,7 +114,7 @@ INLINE const real *row_from(const real *row, const int k)
  * CHUNK: targets in a chunk, ROWS: rows. STEP_AHEAD: pairs by which a loop takes a root before it needs it. AHEAD:
  * entries of a list by which records are prefetched. NEAR_ROOM: targets that are found at once where a loop does not go
  * chunk by chunk; whole chunks, for in single precision the bits depend on where these end. */
-enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32, ROWS = CHUNK / TARGETS, NEAR_ROOM = 8 * CHUNK };
+enum { CHUNK = 64, STEP_AHEAD = 4, AHEAD = 32, ROWS = CHUNK / TARGETS, NEAR_ROOM = MOR_LIST_BLOCK };
 
 /** The geometry of a target and the lanes of a cluster. */
 typedef struct geometry {

@@ -13,13 +13,12 @@ INLINE void diffuse_part(const mor_pair_constants *c, const mor_pair_arrays *arr
     const vec diffusivity = load(own, MOR_PAIR_FIELD_SIZE, MOR_PAIR_FIELD_DIFFUSIVITY);
     vec rate = broadcast(0.0);
     vec diagonal = broadcast(0.0);
-    int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
     mor_near_reader reader;
     mor_near_open(&reader, arrays->inner, first / MOR_CLUSTER);
-    for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
-        for (int32_t entry = 0; entry < n; ++entry) {
-            const double *target = target_of(arrays, near[entry]);
-            const double *other = arrays->field + (int64_t)near[entry] * MOR_PAIR_FIELD_SIZE;
+    while (mor_near_next(&reader, NEAR_ROOM)) {
+        for (int32_t entry = 0; entry < reader.n; ++entry) {
+            const double *target = target_of(arrays, reader.targets[entry]);
+            const double *other = arrays->field + (int64_t)reader.targets[entry] * MOR_PAIR_FIELD_SIZE;
             const pair p = pair_of(&f, target, 3);
             const double there = other[MOR_PAIR_FIELD_DIFFUSIVITY];
             const vec sum = diffusivity + there;
@@ -54,12 +53,11 @@ INLINE void regularize_part(const mor_pair_constants *c, const mor_pair_arrays *
     const vec v[3] = {load(own, MOR_RECORD_SIZE, 4), load(own, MOR_RECORD_SIZE, 5), load(own, MOR_RECORD_SIZE, 6)};
     vec sums[6];
     memset(sums, 0, sizeof sums);
-    int32_t near[NEAR_ROOM + MOR_NEAR_GROUP];
     mor_near_reader reader;
     mor_near_open(&reader, arrays->inner, first / MOR_CLUSTER);
-    for (int32_t n = mor_near_next(&reader, near, NEAR_ROOM); n > 0; n = mor_near_next(&reader, near, NEAR_ROOM)) {
-        for (int32_t entry = 0; entry < n; ++entry) {
-            const double *target = target_of(arrays, near[entry]);
+    while (mor_near_next(&reader, NEAR_ROOM)) {
+        for (int32_t entry = 0; entry < reader.n; ++entry) {
+            const double *target = target_of(arrays, reader.targets[entry]);
             const pair p = pair_of(&f, target, 3);
             const vec square = p.reach * p.reach;
             const vec weight =

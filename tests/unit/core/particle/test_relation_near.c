@@ -6,7 +6,7 @@
 /* After the others: the names in it are short. */
 #include "core/particle/relation_near.h"
 
-enum { MANY = 1600, ROOM_MAX = 64 };
+enum { MANY = 1600 };
 
 /* One list, as entries or as runs, and its bits. */
 typedef struct one_list {
@@ -68,19 +68,17 @@ static void check_all(const one_list *it)
 static void check_wanted(const one_list *it, int32_t room)
 {
     mor_near_reader reader;
-    int32_t found[ROOM_MAX + MOR_NEAR_GROUP];
     int32_t entry = 0;
-    int32_t n = room;
+    int32_t last = room;
     mor_near_open(&reader, &it->relation, 0);
-    while (n > 0) {
-        const int32_t last = n;
-        n = mor_near_next(&reader, found, room);
-        assert_true(n == 0 || last == room); /* blocks are full but for the last one */
-        for (int32_t k = 0; k < n; ++k) {
+    while (mor_near_next(&reader, room)) {
+        assert_int_equal(last, room); /* portions are full but for the last one */
+        last = reader.n;
+        for (int32_t k = 0; k < reader.n; ++k) {
             while (!it->wanted[entry]) {
                 ++entry;
             }
-            assert_int_equal(found[k], it->entries[entry++]);
+            assert_int_equal(reader.targets[k], it->entries[entry++]);
         }
     }
     for (; entry < it->count; ++entry) {
@@ -99,7 +97,7 @@ static void blocks_hold_the_entries_whose_bits_were_kept(void **state)
                       round / 12);
             check_all(&it);
             for (int k = 0; k < 3; ++k) {
-                check_wanted(&it, (int32_t[]){16, 17, ROOM_MAX}[k]);
+                check_wanted(&it, (int32_t[]){MOR_NEAR_GROUP, 64, MOR_LIST_BLOCK}[k]);
             }
         }
     }
